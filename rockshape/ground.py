@@ -1,0 +1,58 @@
+"""The ground plane under the rocks."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+REJECT_SIGMA = 3.0
+MOST_ROUNDS = 50
+
+
+@dataclass(frozen=True, eq=False)
+class Plane:
+    """The plane of points p with normal . p = offset; the camera, at the origin, is above it."""
+
+    normal: NDArray[np.float64]  # (3,), unit length, towards the camera's side
+    offset_m: float
+    sigma_m: float  # standard deviation of the accepted points' heights
+    accepted: float  # share of the points that the fit was made on
+
+    def height_m(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Heights (...) above the plane of points (..., 3)."""
+        return points_m @ self.normal - self.offset_m
+
+
+def fit_plane(points_m: NDArray[np.float64]) -> Plane | None:
+    """Least-squares plane with 3-sigma rejection.
+
+    The plane is fitted to every point; then those farther than three standard deviations from the
+    mean are rejected and it is fitted again, until the set of points no longer changes (Fox et al.
+    2002, section 2, Rock Segmentation). The residual is the orthogonal distance.
+
+    points_m is (..., 3) in the camera frame, NaN where nothing was measured. None where fewer than
+    three points are left or they lie on one line.
+
+    The rejection takes rocks for ground once they cover much of the frame: on scenes of known
+    ground the plane's bias grew from 0.03 cm at 19 % cover to 6.75 cm at 45 %.
+    """
+    points = points_m[np.isfinite(points_m).all(axis=-1)]
+    keep = np.ones(len(points), dtype=bool)
+    for _ in range(MOST_ROUNDS):
+        kept = points[keep]
+        if len(kept) < 3:
+            return None
+        centre = kept.mean(axis=0)
+        spread, axes = np.linalg.eigh(np.cov(kept.T, bias=True))
+        if spread[1] <= 1e-12 * spread[2]:
+            return None
+        normal = axes[:, 0] if axes[:, 0] @ centre < 0 else -axes[:, 0]
+        height = (points - centre) @ normal
+        sigma = float(height[keep].std())
+        now = np.abs(height) <= REJECT_SIGMA * sigma
+        if now.sum() < 3 or np.array_equal(now, keep):
+            break
+        keep = now
+    return Plane(
+        normal=normal, offset_m=float(normal @ centre), sigma_m=sigma, accepted=float(keep.mean())
+    )

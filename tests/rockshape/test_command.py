@@ -1,0 +1,252 @@
+"""`rockshape measure` as a user meets it: what it writes, and one line for each mistake."""
+
+import json
+import pickle
+from collections.abc import Callable
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pandas as pd
+import pytest
+
+from rockshape.cli import main
+from rockshape.io import read_image, read_labels
+from rockshape.observation import Observation
+from rockshape.pipeline import measure
+from rockshape.table import to_frame
+from tests.paths import GRAINS_IMAGE, GRAINS_LABELS, MARS_IMAGE, MARS_RANGE
+
+
+def test_the_readme_command_writes_table_labels_and_picture(tmp_path: Path) -> None:
+    table, labels, picture = tmp_path / "m.csv", tmp_path / "l.png", tmp_path / "o.png"
+    arguments = ["measure", str(MARS_IMAGE), "--range", str(MARS_RANGE), "--out", str(table)]
+    assert main([*arguments, "--labels-out", str(labels), "--overlay", str(picture)]) == 0
+    frame = pd.read_csv(table)
+    assert len(frame) >= 3
+    written = cv2.imread(str(labels), cv2.IMREAD_UNCHANGED)
+    assert written.dtype == np.uint16
+    assert np.unique(written)[1:].tolist() == frame["rock"].tolist()
+    assert cv2.imread(str(picture)).shape == (992, 1024, 3)
+
+
+def test_labels_read_back_give_the_same_flat_measures(tmp_path: Path) -> None:
+    first, second, labels = tmp_path / "a.csv", tmp_path / "b.csv", tmp_path / "l.png"
+    arguments = ["measure", str(MARS_IMAGE), "--range", str(MARS_RANGE)]
+    assert main([*arguments, "--out", str(first), "--labels-out", str(labels)]) == 0
+    assert main([*arguments, "--out", str(second), "--labels", str(labels)]) == 0
+    same = ["rock", "area_px", "axis_ratio", "angularity_2d_deg", "sphericity_3d"]
+    pd.testing.assert_frame_equal(pd.read_csv(first)[same], pd.read_csv(second)[same])
+
+
+@pytest.mark.parametrize("ending", [".csv", ".json", ".parquet"])
+def test_every_table_form_holds_the_same(tmp_path: Path, ending: str) -> None:
+    path = tmp_path / f"grains{ending}"
+    arguments = ["measure", str(GRAINS_IMAGE), "--labels", str(GRAINS_LABELS), "--out", str(path)]
+    assert main(arguments) == 0
+    read = {".csv": pd.read_csv, ".json": pd.read_json, ".parquet": pd.read_parquet}[ending]
+    image = read_image(GRAINS_IMAGE)
+    labels = read_labels(GRAINS_LABELS, shape=image.shape)
+    expected = to_frame(measure(Observation(image=image), labels=labels))
+    # CSV and JSON keep nine digits; an empty CSV field reads as NaN
+    frame = read(path)[list(expected.columns)]
+    pd.testing.assert_frame_equal(frame, expected, check_dtype=False, rtol=1e-8)
+
+
+def test_without_out_the_table_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["measure", str(GRAINS_IMAGE), "--labels", str(GRAINS_LABELS)]) == 0
+    printed = capsys.readouterr()
+    assert printed.out.splitlines()[0].startswith("rock,row,col,area_px")
+    assert "124 rocks" in printed.err
+
+
+def test_depth_with_a_camera_is_range_too(tmp_path: Path) -> None:
+    depth = np.full((40, 50), 2000, dtype=np.uint16)
+    depth[10:30, 10:35] = 1800
+    cv2.imwrite(str(tmp_path / "depth.png"), depth)
+    cv2.imwrite(str(tmp_path / "image.png"), np.zeros((40, 50), dtype=np.uint8))
+    camera = {"fx": 50, "fy": 50, "cx": 24.5, "cy": 19.5, "width": 50, "height": 40}
+    (tmp_path / "camera.json").write_text(json.dumps(camera | {"depth_scale": 1.0}))
+    arguments = ["--range", str(tmp_path / "depth.png"), "--camera", str(tmp_path / "camera.json")]
+    out = ["--out", str(tmp_path / "t.csv")]
+    assert main(["measure", str(tmp_path / "image.png"), *arguments, *out]) == 0
+    frame = pd.read_csv(tmp_path / "t.csv")
+    assert frame["area_px"].tolist() == [20 * 25]
+
+
+def spoil_image(folder: Path, how: str) -> Path:
+    path = folder / "image.png"
+    whole = MARS_IMAGE.read_bytes()
+    match how:
+        case "missing":
+            return path
+        case "directory":
+            path.mkdir()
+        case "empty":
+            path.write_bytes(b"")
+        case "cut":
+            path.write_bytes(whole[: len(whole) // 2])
+        case "text":
+            path.write_text("this is no image")
+        case "cut tiff":
+            whole = GRAINS_LABELS.read_bytes()
+            path.write_bytes(whole[: len(whole) // 2])
+    return path
+
+
+def fails_in_one_line(capsys: pytest.CaptureFixture[str], arguments: list[str], *says: str) -> None:
+    """The command ends with status 2 and one line that says all that."""
+    try:
+        status = main(arguments)
+    except SystemExit as end:
+        status = end.code
+    printed = capsys.readouterr()
+    assert status == 2
+    assert printed.out == ""
+    assert len(printed.err.splitlines()) == 1, printed.err
+    for words in says:
+        assert words in printed.err
+
+
+@pytest.mark.parametrize("how", ["missing", "directory", "empty", "cut", "text", "cut tiff"])
+def test_a_bad_image(tmp_path: Path, capsys: pytest.CaptureFixture[str], how: str) -> None:
+    path = spoil_image(tmp_path, how)
+    arguments = ["measure", str(path), "--range", str(MARS_RANGE)]
+    fails_in_one_line(capsys, arguments, str(path), "expected", "found")
+
+
+class Payload:
+    """Something that only a pickle could hold."""
+
+
+def no_key(path: Path) -> None:
+    np.savez(path, points=np.zeros((248, 256, 3)))
+
+
+def pickled(path: Path) -> None:
+    np.savez(path, xyz=np.array([Payload()], dtype=object))
+
+
+def pickle_itself(path: Path) -> None:
+    path.write_bytes(pickle.dumps([1, 2, 3]))
+
+
+def other_shape(path: Path) -> None:
+    np.savez(path, xyz=np.zeros((256, 248, 3)))
+
+
+def depth_alone(path: Path) -> None:
+    np.savez(path, depth=np.ones((248, 256)))
+
+
+def words(path: Path) -> None:
+    np.savez(path, xyz=np.full((248, 256, 3), "far"))
+
+
+def cut(path: Path) -> None:
+    path.write_bytes(MARS_RANGE.read_bytes()[:5000])
+
+
+def empty(path: Path) -> None:
+    path.write_bytes(b"")
+
+
+def folder(path: Path) -> None:
+    path.mkdir()
+
+
+@pytest.mark.parametrize(
+    ("make", "says"),
+    [
+        (no_key, "expected the key xyz or depth, found points"),
+        (pickled, "pickled objects"),
+        (pickle_itself, "pickled objects"),
+        (other_shape, "found (256, 248, 3)"),
+        (depth_alone, "expected --camera"),
+        (words, "found <U3"),
+        (cut, "expected range"),
+        (empty, "found an empty file"),
+        (folder, "found a directory"),
+    ],
+)
+def test_a_bad_range(
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    make: Callable[[Path], None],
+    says: str,
+) -> None:
+    path = tmp_path / "range.npz"
+    make(path)
+    arguments = ["measure", str(MARS_IMAGE), "--range", str(path)]
+    fails_in_one_line(capsys, arguments, str(path), says)
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ('{"fx": 50, "fy": 50, "cx": 24, "cy": 19, "height": 4}', "width"),
+        ('{"fy": 50, "cx": 24, "cy": 19, "width": 256, "height": 248}', "fx"),
+        ('{"fx": 0, "fy": 5, "cx": 2, "cy": 1, "width": 256, "height": 248}', "fx"),
+        ('{"fx": "far"}', "fx"),
+        ("[1, 2]", "object"),
+        ("not JSON", "found"),
+        ('{"fx": 5, "fy": 5, "cx": 2, "cy": 1, "width": 25, "height": 24}', "(24, 25)"),
+    ],
+)
+def test_a_bad_camera(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], text: str, says: str
+) -> None:
+    path = tmp_path / "camera.json"
+    path.write_text(text)
+    arguments = ["measure", str(MARS_IMAGE), "--range", str(MARS_RANGE), "--camera", str(path)]
+    fails_in_one_line(capsys, arguments, "camera", says)
+
+
+@pytest.mark.parametrize(
+    ("extra", "says"),
+    [
+        (["--method", "guess"], "--method"),
+        (["--out", "table.xlsx"], "table.xlsx"),
+        (["--out", "nowhere/table.csv"], "nowhere"),
+        (["--overlay", "picture.xyz"], "picture.xyz"),
+        (["--labels-out", "labels.jpg"], "labels.jpg"),
+        (["--labels", str(GRAINS_LABELS)], "(512, 512)"),
+        (["--labels", str(GRAINS_IMAGE)], "label image"),
+        (["--frobnicate"], "--frobnicate"),
+    ],
+)
+def test_bad_arguments(
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    extra: list[str],
+    says: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    arguments = ["measure", str(MARS_IMAGE), "--range", str(MARS_RANGE), *extra]
+    fails_in_one_line(capsys, arguments, says)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_neither_range_nor_labels(capsys: pytest.CaptureFixture[str]) -> None:
+    fails_in_one_line(capsys, ["measure", str(MARS_IMAGE)], "--range or --labels")
+
+
+def test_range_that_is_nan_everywhere_still_measures_the_flat_columns(tmp_path: Path) -> None:
+    range_path = tmp_path / "nan.npy"
+    np.save(range_path, np.full((512, 512, 3), np.nan))
+    table = tmp_path / "t.csv"
+    arguments = ["--labels", str(GRAINS_LABELS), "--range", str(range_path), "--out", str(table)]
+    assert main(["measure", str(GRAINS_IMAGE), *arguments]) == 0
+    frame = pd.read_csv(table)
+    assert frame["axis_ratio"].notna().all()
+    assert frame["reason"].str.contains("no range").all()
+
+
+def test_a_defect_keeps_its_traceback(monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(path: Path) -> None:
+        raise ZeroDivisionError(path)
+
+    monkeypatch.setattr("rockshape.commands.measure.read_image", broken)
+    with pytest.raises(ZeroDivisionError):
+        main(["measure", "a.png", "--range", "b.npz"])

@@ -1,0 +1,163 @@
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from rockshape.draw import overlay
+from rockshape.errors import InputError
+from rockshape.io import read_image, read_labels, read_range
+from rockshape.measures import METHODS, PAPER
+from rockshape.observation import Observation
+from rockshape.pipeline import Measurement, measure
+from rockshape.table import columns, to_frame
+from tests import solids
+from tests.paths import GRAINS_IMAGE, GRAINS_LABELS, MARS_IMAGE, MARS_RANGE
+
+DOWN = np.array([0.0, 0.8, 0.6])  # towards the ground, in the camera frame
+HALF_AXES = np.array([0.22, 0.16, 0.12])
+
+
+@pytest.fixture(scope="module")
+def yard() -> Observation:
+    """Two ellipsoids on a plane."""
+    surfaces = [solids.plane_range(solids.CAMERA, normal=-DOWN, offset_m=-1.5)]
+    for side, turn in ((-0.28, 0.4), (0.28, -1.0)):
+        axes = Rotation.from_rotvec(turn * DOWN).as_matrix()
+        centre = np.array([side, 0.0, 2.5])
+        centre += (1.5 - 0.1 - DOWN @ centre) * DOWN
+        surfaces.append(
+            solids.ellipsoid_range(solids.CAMERA, centre_m=centre, half_axes_m=HALF_AXES, axes=axes)
+        )
+    points = solids.nearest(*surfaces)
+    image = np.zeros(solids.CAMERA.shape, dtype=np.float32)
+    return Observation(image=image, points_m=points, camera=solids.CAMERA)
+
+
+def test_ellipsoids_on_a_plane_are_found_and_measured(yard: Observation) -> None:
+    frame = to_frame(measure(yard))
+    assert len(frame) == 2
+    assert (frame["reason"] == "").all()
+    # exact range of the visible side, but for the rim at the ground
+    for column, truth in zip(("axis_a_m", "axis_b_m", "axis_c_m"), HALF_AXES, strict=True):
+        assert frame[column].to_numpy() == pytest.approx(truth, rel=0.02)
+    sphericity = (0.12**2 / 0.22 / 0.16) ** (1 / 3)
+    assert frame["sphericity_3d"].to_numpy() == pytest.approx(sphericity, rel=0.02)
+    assert not frame["truncated"].any()
+
+
+def test_given_labels_are_used_and_keep_their_numbers(yard: Observation) -> None:
+    found = measure(yard).labels
+    labels = np.where(found == 2, 40, np.where(found == 1, 7, 0)).astype(np.int32)
+    measured = measure(yard, labels=labels)
+    assert to_frame(measured)["rock"].tolist() == [7, 40]
+    assert measured.labels is labels
+
+
+def test_range_that_is_nowhere_known_leaves_the_flat_measures(yard: Observation) -> None:
+    labels = measure(yard).labels
+    blind = Observation(
+        image=yard.image, points_m=np.full((*yard.image.shape, 3), np.nan), camera=solids.CAMERA
+    )
+    frame = to_frame(measure(blind, labels=labels))
+    flat = [entry.column for entry in PAPER if not entry.needs_range]
+    solid = [entry.column for entry in PAPER if entry.needs_range]
+    assert np.isfinite(frame[flat].to_numpy()).all()
+    assert np.isnan(frame[solid].to_numpy()).all()
+    assert (frame["reason"] == "no range").all()
+
+
+@pytest.mark.parametrize("pixels", [1, 2, 3, 8, 30])
+def test_small_and_thin_rocks_give_nan_with_a_reason(pixels: int) -> None:
+    labels = np.zeros((60, 60), dtype=np.int32)
+    labels[20, 20 : 20 + pixels] = 5
+    image = np.zeros(labels.shape, dtype=np.float32)
+    frame = to_frame(measure(Observation(image=image), labels=labels))
+    values = frame[[entry.column for entry in PAPER]].iloc[0]
+    assert np.isnan(values["axis_ratio"])
+    assert frame["reason"].iloc[0] != ""
+    assert frame["area_px"].iloc[0] == pixels
+
+
+def test_nothing_to_find_rocks_by_finds_none() -> None:
+    frame = to_frame(measure(Observation(image=np.zeros((9, 9), dtype=np.float32))))
+    assert len(frame) == 0
+    assert list(frame.columns) == list(columns("paper"))
+
+
+def test_rocks_cut_by_the_frame_and_hidden_ones_are_told() -> None:
+    shape = (100, 200)
+    labels = np.zeros(shape, dtype=np.int32)
+    y, x = np.mgrid[:100, :200]
+    labels[np.hypot(x - 60, y - 50) < 25] = 1
+    near = np.hypot(x - 95, y - 50) < 25
+    labels[near] = 2
+    labels[np.hypot(x - 199, y - 50) < 25] = 3
+    points = np.stack([x / 100, y / 100, np.where(near, 2.0, 3.0)], axis=-1)
+    image = np.zeros(shape, dtype=np.float32)
+    camera = None
+    observation = Observation(image=image, points_m=points, camera=camera)
+    frame = to_frame(measure(observation, labels=labels)).set_index("rock")
+    assert frame["truncated"].to_dict() == {1: False, 2: False, 3: True}
+    assert frame["visible_fraction"][2] == pytest.approx(1, abs=0.01)
+    assert frame["visible_fraction"][1] < 0.97
+    assert frame["visible_fraction"][3] < 0.97
+
+
+def test_an_unknown_method_and_other_labels_are_refused(yard: Observation) -> None:
+    with pytest.raises(InputError, match="expected one of paper"):
+        measure(yard, method="guess")
+    with pytest.raises(InputError, match="labels: expected"):
+        measure(yard, labels=np.zeros((3, 3), dtype=np.int32))
+
+
+def test_the_overlay_shows_every_rock(yard: Observation) -> None:
+    measured = measure(yard)
+    picture = overlay(yard.image, measured)
+    assert picture.dtype == np.uint8
+    assert picture.shape[0] % yard.image.shape[0] == 0
+    scale = picture.shape[0] // yard.image.shape[0]
+    assert max(picture.shape) >= 900
+    for rock in measured.rocks:
+        x, y = rock.outline_px[0]
+        here = picture[round(scale * (y + 0.5)), round(scale * (x + 0.5))]
+        assert here.max() > 100  # the image itself is black
+
+
+def test_every_method_names_each_column_once() -> None:
+    for method, measures in METHODS.items():
+        names = columns(method)
+        assert len(set(names)) == len(names)
+        assert [entry.column for entry in measures] == list(names[-1 - len(measures) : -1])
+
+
+@pytest.fixture(scope="module")
+def mars() -> Measurement:
+    image = read_image(MARS_IMAGE)
+    points = read_range(MARS_RANGE, shape=image.shape, camera=None)
+    return measure(Observation(image=image, points_m=points))
+
+
+@pytest.mark.parametrize(
+    ("row", "col"),
+    [(28, 82), (66, 205), (208, 215)],
+    ids=["two-tone rock", "slab", "lower right rock"],
+)
+def test_the_large_rocks_of_the_mars_frame_are_found(mars: Measurement, row: int, col: int) -> None:
+    number = mars.labels[row, col]
+    assert number > 0
+    rock = mars.rocks[number - 1]
+    assert rock.reason == ""
+    assert np.isfinite(list(rock.values.values())).all()
+
+
+def test_sand_ripples_of_the_mars_frame_are_no_rocks(mars: Measurement) -> None:
+    assert not mars.labels[75:130, 65:135].any()
+
+
+def test_gravel_with_its_masks_is_measured_without_range() -> None:
+    image = read_image(GRAINS_IMAGE)
+    labels = read_labels(GRAINS_LABELS, shape=image.shape)
+    frame = to_frame(measure(Observation(image=image), labels=labels))
+    assert len(frame) == len(np.unique(labels)) - 1
+    assert frame["axis_ratio"].between(0, 1).all()
+    assert frame["sphericity_3d"].isna().all()
+    assert frame["reason"].str.contains("no range").all()

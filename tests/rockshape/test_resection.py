@@ -1,0 +1,86 @@
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from rockshape.errors import InputError
+from rockshape.io import read_image, read_range
+from rockshape.observation import Observation
+from rockshape.resection import resect
+from tests import solids
+from tests.paths import MARS_IMAGE, MARS_RANGE
+
+
+def scene() -> np.ndarray:
+    return solids.nearest(
+        solids.plane_range(solids.CAMERA, normal=np.array([0, -0.8, -0.6]), offset_m=-1.5),
+        solids.ellipsoid_range(
+            solids.CAMERA,
+            centre_m=np.array([0.1, 0.2, 2.0]),
+            half_axes_m=np.array([0.3, 0.2, 0.2]),
+            axes=np.eye(3),
+        ),
+    )
+
+
+def test_a_grid_in_another_frame_tells_its_camera() -> None:
+    rotation = Rotation.from_rotvec([1.8, 0.3, -0.4]).as_matrix()
+    translation = np.array([4.0, -2.0, 1.3])
+    found = resect(scene() @ rotation.T + translation)
+    assert found is not None
+    assert found.centre_m == pytest.approx(translation, abs=1e-5)
+    assert found.camera.fx == pytest.approx(solids.CAMERA.fx, rel=1e-5)
+    assert found.residual_px < 1e-4
+
+
+def test_an_observation_moves_such_a_grid_to_the_camera() -> None:
+    points = scene()
+    rotation = Rotation.from_rotvec([1.8, 0.3, -0.4]).as_matrix()
+    image = np.zeros(solids.CAMERA.shape, dtype=np.float32)
+    observation = Observation(image=image, points_m=points @ rotation.T + [4.0, -2.0, 1.3])
+    assert observation.points_m is not None
+    assert observation.points_m == pytest.approx(points, abs=1e-5, nan_ok=True)
+
+
+def test_the_lander_camera_of_the_mars_frame_is_found() -> None:
+    image = read_image(MARS_IMAGE)
+    points = read_range(MARS_RANGE, shape=image.shape, camera=None)
+    found = resect(points)
+    assert found is not None
+    # the camera's pixel is published as 0.98 mrad
+    assert 1000 / found.camera.fx == pytest.approx(0.98, abs=0.02)
+    assert found.residual_px < 0.3
+
+
+@pytest.mark.parametrize(
+    "points",
+    [np.full((20, 30, 3), np.nan), np.ones((20, 30, 3))],
+    ids=["nothing measured", "one place"],
+)
+def test_no_camera_where_none_is_determined(points: np.ndarray) -> None:
+    assert resect(points) is None
+
+
+def test_points_that_no_camera_sees_are_left_as_they_are(rng: np.random.Generator) -> None:
+    points = rng.normal(size=(20, 30, 3))
+    observation = Observation(image=np.zeros((20, 30), dtype=np.float32), points_m=points)
+    assert observation.resection is None
+    assert np.array_equal(observation.points_m, points)
+
+
+@pytest.mark.parametrize(
+    ("image_shape", "points_shape", "camera"),
+    [
+        ((4, 5, 3), (4, 5, 3), None),
+        ((4, 5), (5, 4, 3), None),
+        ((4, 5), (4, 5), None),
+        ((4, 5), (4, 5, 3), solids.CAMERA),
+    ],
+    ids=["colour", "turned range", "depth", "another camera"],
+)
+def test_shapes_must_fit(image_shape: tuple, points_shape: tuple, camera: object) -> None:
+    with pytest.raises(InputError, match=r"expected .*found"):
+        Observation(
+            image=np.zeros(image_shape, dtype=np.float32),
+            points_m=np.zeros(points_shape),
+            camera=camera,
+        )

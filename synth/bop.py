@@ -1,0 +1,230 @@
+"""The records of one scene in BOP's and COCO's forms, and our truth: plain tables for JSON."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import ConvexHull
+from scipy.spatial.distance import cdist
+
+from synth.camera import Camera, Pose
+from synth.mesh import Mesh
+from synth.render.view import View
+from synth.scene import PlacedRock, Scene
+
+Floats = NDArray[np.float64]
+Table = dict[str, Any]
+
+MAX_ROCKS = 1000  # object ids leave this much room for each scene
+
+
+def object_id(scene: int, instance: int) -> int:
+    """Return a rock's number in the dataset: 1000 × scene + instance + 1."""
+    return MAX_ROCKS * scene + instance + 1
+
+
+def camera_table(camera: Camera, depth_scale: float) -> Table:
+    """Return camera.json."""
+    return {
+        "fx": camera.fx,
+        "fy": camera.fy,
+        "cx": camera.cx,
+        "cy": camera.cy,
+        "width": camera.width,
+        "height": camera.height,
+        "depth_scale": depth_scale,
+    }
+
+
+def scene_camera(scene: Scene, depth_scale: float) -> Table:
+    """Return scene_camera.json: each view's K and pose, millimetres."""
+    return {
+        str(view): {
+            "cam_K": scene.camera.matrix().ravel(),
+            "depth_scale": depth_scale,
+            "cam_R_w2c": pose.world_to_camera.ravel(),
+            "cam_t_w2c": 1000.0 * pose.translation_m,
+        }
+        for view, pose in enumerate(scene.poses)
+    }
+
+
+def scene_gt(scene: Scene, index: int) -> Table:
+    """Return scene_gt.json: each rock's pose in each view, millimetres."""
+    return {
+        str(view): [
+            {
+                "obj_id": object_id(index, instance),
+                "cam_R_m2c": (pose.world_to_camera @ placed.model_to_world).ravel(),
+                "cam_t_m2c": 1000.0 * pose.camera_points_m(placed.position_m),
+            }
+            for instance, placed in enumerate(scene.rocks)
+        ]
+        for view, pose in enumerate(scene.poses)
+    }
+
+
+def scene_gt_info(views: Sequence[View]) -> Table:
+    """Return scene_gt_info.json: boxes and pixel counts; an unseen rock's visible box is −1."""
+    return {
+        str(number): [
+            _info(view, instance, silhouette)
+            for instance, silhouette in enumerate(view.silhouettes)
+        ]
+        for number, view in enumerate(views)
+    }
+
+
+def _info(view: View, instance: int, silhouette: NDArray[np.bool_]) -> Table:
+    visible = view.labels == instance + 1
+    count_all, count_visible = int(silhouette.sum()), int(visible.sum())
+    return {
+        "bbox_obj": _box(silhouette),
+        "bbox_visib": _box(visible),
+        "px_count_all": count_all,
+        "px_count_valid": int((silhouette & ~np.isnan(view.depth_m)).sum()),
+        "px_count_visib": count_visible,
+        "visib_fract": count_visible / count_all if count_all else 0.0,
+    }
+
+
+def scene_gt_coco(scene: Scene, index: int, views: Sequence[View]) -> Table:
+    """Return scene_gt_coco.json: what is visible, in run lengths down the columns.
+
+    A rock that is not seen has no annotation.
+    """
+    annotations: list[Table] = []
+    for number, view in enumerate(views):
+        for instance in range(len(scene.rocks)):
+            visible = view.labels == instance + 1
+            if visible.any():
+                annotations.append(
+                    {
+                        "id": len(annotations) + 1,
+                        "image_id": number,
+                        "category_id": object_id(index, instance),
+                        "iscrowd": 0,
+                        "area": int(visible.sum()),
+                        "bbox": _box(visible),
+                        "segmentation": {"size": visible.shape, "counts": run_lengths(visible)},
+                        "width": scene.camera.width,
+                        "height": scene.camera.height,
+                    }
+                )
+    return {
+        "info": {"description": f"scene {index:06d}"},
+        "images": [
+            {
+                "id": number,
+                "file_name": f"gray/{number:06d}.png",
+                "width": scene.camera.width,
+                "height": scene.camera.height,
+            }
+            for number in range(len(views))
+        ],
+        "categories": [
+            {"id": object_id(index, instance), "name": "rock", "supercategory": "rock"}
+            for instance in range(len(scene.rocks))
+        ],
+        "annotations": annotations,
+    }
+
+
+def scene_gt_shape(scene: Scene, index: int, views: Sequence[View]) -> Table:
+    """Return scene_gt_shape.json: each rock's truth, and how each view sees it."""
+    return {
+        "rocks": [_rock(placed, index, instance) for instance, placed in enumerate(scene.rocks)],
+        "views": {
+            str(number): [
+                _sight(scene.camera, pose, placed, view, instance)
+                for instance, placed in enumerate(scene.rocks)
+            ]
+            for number, (pose, view) in enumerate(zip(scene.poses, views, strict=True))
+        },
+    }
+
+
+def _rock(placed: PlacedRock, index: int, instance: int) -> Table:
+    truth = placed.rock.truth
+    return {
+        "instance": instance,
+        "obj_id": object_id(index, instance),
+        "family": placed.rock.family,
+        "knobs": placed.rock.knobs,
+        "half_axes_box_m": truth.half_axes_box_m,
+        "half_axes_inertia_m": truth.half_axes_inertia_m,
+        "maximum_projection_sphericity": truth.maximum_projection_sphericity(),
+        "maximum_projection_sphericity_inertia": truth.maximum_projection_sphericity_inertia(),
+        "wadell_sphericity": truth.wadell_sphericity(),
+        "volume_m3": truth.volume_m3,
+        "area_m2": truth.area_m2,
+        "roundness": truth.roundness,
+        "albedo": placed.albedo,
+        "centre_m": placed.position_m,
+        "rotation_model_to_world": placed.model_to_world.ravel(),
+        "model_mm": model_info(placed.rock.mesh),
+    }
+
+
+def _sight(camera: Camera, pose: Pose, placed: PlacedRock, view: View, instance: int) -> Table:
+    silhouette = view.silhouettes[instance]
+    count_all = int(silhouette.sum())
+    left, top, right, bottom = view.boxes_px[instance]
+    inside = left >= -0.5 and top >= -0.5
+    inside &= right <= camera.width - 0.5 and bottom <= camera.height - 0.5
+    depth_m = float(pose.camera_points_m(placed.position_m)[2])
+    count_visible = int((view.labels == instance + 1).sum())
+    return {
+        "instance": instance,
+        "visible_fraction": count_visible / count_all if count_all else 0.0,
+        "truncated": not inside,
+        "pixel_m": depth_m / np.sqrt(camera.fx * camera.fy),
+        "depth_m": depth_m,
+    }
+
+
+def model_info(mesh: Mesh) -> Table:
+    """Return BOP's entry in models_info.json: diameter, least corner and size, millimetres."""
+    low, high = 1000.0 * mesh.vertices_m.min(axis=0), 1000.0 * mesh.vertices_m.max(axis=0)
+    table: Table = {"diameter": 1000.0 * diameter_m(mesh.vertices_m)}
+    for axis, name in enumerate("xyz"):
+        table[f"min_{name}"] = low[axis]
+        table[f"size_{name}"] = high[axis] - low[axis]
+    return table
+
+
+def diameter_m(points_m: Floats) -> float:
+    """Return the greatest distance between two points, exactly.
+
+    A point nearer to the middle than d − R, with d some distance in the set and R the greatest
+    from the middle, can be no end of the diameter: it is dropped before all pairs are compared.
+    """
+    corners_m = points_m[ConvexHull(points_m).vertices]
+    arms_m = np.linalg.norm(corners_m - corners_m.mean(axis=0), axis=1)
+    farthest = corners_m[np.argmax(arms_m)]
+    known_m = float(np.linalg.norm(corners_m - farthest, axis=1).max())
+    ends_m = corners_m[arms_m >= known_m - arms_m.max() - 1e-12]
+    return max(float(cdist(part, ends_m).max()) for part in np.array_split(ends_m, 16) if len(part))
+
+
+def run_lengths(mask: NDArray[np.bool_]) -> list[int]:
+    """Return COCO's uncompressed run lengths: down the columns, the first run of zeros."""
+    flat = np.concatenate([[False], mask.ravel(order="F"), [False]])
+    changes = np.flatnonzero(flat[1:] != flat[:-1])
+    edges = np.concatenate([[0], changes, [mask.size]])
+    runs = np.diff(edges)
+    return [int(run) for run in (runs[:-1] if runs[-1] == 0 else runs)]
+
+
+def _box(mask: NDArray[np.bool_]) -> list[int]:
+    """Return left, top, width, height of a mask, or −1 four times where it is empty."""
+    rows, cols = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    if not len(rows):
+        return [-1, -1, -1, -1]
+    return [
+        int(cols[0]),
+        int(rows[0]),
+        int(cols[-1] - cols[0] + 1),
+        int(rows[-1] - rows[0] + 1),
+    ]

@@ -1,0 +1,92 @@
+"""`rockshape synth`: scenes and shapes from the command line."""
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+from typing import get_args
+
+import msgspec
+
+from synth.errors import InputError
+from synth.generate import generate_dataset
+from synth.shapes import SERIES, write_series
+from synth.spec import PresetName, RendererName, SceneSpec, convert_spec, load_spec
+
+HELP = "make rocks of known shape: rendered scenes, or drawn shapes, with their truth"
+
+_MAX_SEED = 2**63
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the two kinds of output and their options."""
+    kinds = parser.add_subparsers(title="kinds", metavar="KIND", dest="kind", required=True)
+    scene = kinds.add_parser("scene", help="rocks on a plain: image, depth, labels, truth (BOP)")
+    scene.add_argument("out", metavar="OUT", type=Path, help="folder of the dataset")
+    scene.add_argument("--spec", metavar="FILE.toml", type=Path, help="the dataset's description")
+    scene.add_argument("--seed", metavar="N", type=int, help="seed of all randomness")
+    scene.add_argument("--scenes", metavar="N", type=int, help="number of scenes")
+    scene.add_argument("--rocks", metavar="N", type=int, help="rocks in a scene")
+    scene.add_argument("--views", metavar="N", type=int, help="camera stations round a scene")
+    scene.add_argument("--camera", metavar="PRESET", help=_listed(get_args(PresetName)))
+    scene.add_argument("--renderer", metavar="NAME", help=_listed(get_args(RendererName)))
+    scene.add_argument("--noise", metavar="KIND", help="the range sensor's errors: none")
+    scene.add_argument("--jobs", metavar="N", type=int, default=1, help="processes (default 1)")
+    shapes = kinds.add_parser("shapes", help="a row of drawn shapes: image, labels, truth")
+    shapes.add_argument("out", metavar="OUT", type=Path, help="folder of the drawing")
+    shapes.add_argument("--series", metavar="NAME", required=True, help=_listed(tuple(SERIES)))
+    shapes.add_argument("--count", metavar="N", type=int, default=4, help="shapes (default 4)")
+    shapes.add_argument("--seed", metavar="N", type=int, default=0, help="seed (default 0)")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Make what was asked for and return 0.
+
+    Raises:
+        InputError: an argument or a spec that cannot be used.
+        MissingBackendError: the machine lacks the renderer.
+    """
+    if args.kind == "shapes":
+        if args.seed < 0:
+            raise InputError(f"--seed: expected 0 or more, found {args.seed}")
+        write_series(args.series, args.out, count=args.count, seed=args.seed)
+        return 0
+    if args.jobs < 1:
+        raise InputError(f"--jobs: expected 1 or more, found {args.jobs}")
+    generate_dataset(_spec(args), args.out, jobs=args.jobs, show_progress=True)
+    return 0
+
+
+def _spec(args: argparse.Namespace) -> SceneSpec:
+    """Return the spec of the file, or the default one, with the options laid over it."""
+    _require("--camera", args.camera, get_args(PresetName))
+    _require("--renderer", args.renderer, get_args(RendererName))
+    _require("--noise", args.noise, ("none",))
+    for option in ("scenes", "rocks", "views"):
+        value = getattr(args, option)
+        if value is not None and value < 1:
+            raise InputError(f"--{option}: expected 1 or more, found {value}")
+    if args.seed is not None and not 0 <= args.seed < _MAX_SEED:
+        raise InputError(f"--seed: expected 0 or more, below 2^63, found {args.seed}")
+    spec = SceneSpec() if args.spec is None else load_spec(args.spec)
+    table = msgspec.to_builtins(spec)
+    for part, key, value in (
+        (table, "seed", args.seed),
+        (table, "scenes", args.scenes),
+        (table, "renderer", args.renderer),
+        (table["rocks"], "count", args.rocks),
+        (table["views"], "count", args.views),
+        (table["camera"], "preset", args.camera),
+        (table["noise"], "kind", args.noise),
+    ):
+        if value is not None:
+            part[key] = value
+    return convert_spec(table, where="options")
+
+
+def _require(option: str, value: str | None, names: Sequence[str]) -> None:
+    if value is not None and value not in names:
+        raise InputError(f"{option}: expected {_listed(names)}, found {value!r}")
+
+
+def _listed(names: Sequence[str]) -> str:
+    return f"one of {', '.join(names)}" if len(names) > 1 else names[0]

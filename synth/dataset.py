@@ -1,0 +1,141 @@
+"""The dataset's folder: one scene at a time, whole or not at all, then what belongs to all."""
+
+import shutil
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from synth import bop
+from synth.camera import PRESETS
+from synth.files import read_json, sha256, write_json, write_ply_mm, write_png
+from synth.light import light_scene
+from synth.render import open_renderer, render_view
+from synth.render.view import View
+from synth.scene import Scene, build_scene, camera_distance_m
+from synth.spec import RendererName, SceneSpec
+
+PARTIAL = ".partial"  # folder of scenes that are not whole yet, gone when the dataset is
+_DISTRIBUTIONS = ("rockshape", "numpy", "scipy", "trimesh", "opencv-python-headless")
+_BACKEND_DISTRIBUTION = {"osmesa": "arcade-pyrender", "egl": "arcade-pyrender", "embree": "embreex"}
+
+
+def scene_name(index: int) -> str:
+    """Return a scene's folder: six digits."""
+    return f"{index:06d}"
+
+
+def depth_scale_mm(spec: SceneSpec) -> float:
+    """Return millimetres for a unit of the depth image, one for the whole dataset.
+
+    A rock cannot lie farther than its place's greatest distance from the centre, which is the
+    camera's own, so depths reach at most twice that plus a rock; but a rock also keeps within the
+    ring's common field, whose far edge is the ground seen along the frame's top. The nearer bound
+    counts, and is spread over 65,535 steps, rounded up to a hundredth of a millimetre.
+    """
+    camera = PRESETS[spec.camera.preset].camera
+    distance_m = camera_distance_m(spec.camera)
+    elevation_rad = np.deg2rad(spec.camera.elevation_deg)
+    reach_m = distance_m + 2.0 * spec.rocks.diameter_m[1]
+    if spec.views.count > 1:
+        half_field = max(camera.width / camera.fx, camera.height / camera.fy) / 2.0
+        reach_m = min(reach_m, distance_m * half_field * 1.5 + spec.rocks.diameter_m[1])
+    farthest_mm = 1000.0 * (distance_m + reach_m * np.cos(elevation_rad))
+    return float(np.ceil(farthest_mm / 65535.0 * 100.0) / 100.0)
+
+
+def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -> str:
+    """Make, render and write one scene; return its folder's name.
+
+    This is the unit of work: it needs nothing but its arguments and may run in any process. The
+    scene is written apart and renamed into place when whole, after its models.
+    """
+    scene = build_scene(spec, index)
+    stage = light_scene(scene, spec.sun)
+    renderer = open_renderer(backend, stage, scene.camera)
+    scale_mm = depth_scale_mm(spec)
+    folder = out / PARTIAL / scene_name(index)
+    shutil.rmtree(folder, ignore_errors=True)
+    for name in ("gray", "depth", "labels", "mask", "mask_visib", "models"):
+        (folder / name).mkdir(parents=True)
+    views = []
+    for number, pose in enumerate(scene.poses):
+        view = render_view(renderer, stage, scene.camera, pose, supersample=spec.camera.supersample)
+        _write_view(folder, number, view, scale_mm)
+        views.append(view)
+    _write_tables(folder, scene, index, views, scale_mm)
+    for instance, placed in enumerate(scene.rocks):
+        name = f"obj_{bop.object_id(index, instance):06d}.ply"
+        write_ply_mm(folder / "models" / name, placed.rock.mesh)
+    _publish(folder, out)
+    return folder.name
+
+
+def encode_depth(depth_m: NDArray[np.float64], scale_mm: float) -> NDArray[np.uint16]:
+    """Return depth in steps of scale_mm, 0 where nothing is or where 16 bits do not reach."""
+    steps = np.rint(np.nan_to_num(depth_m, nan=0.0) * 1000.0 / scale_mm)
+    return np.where(steps <= 65535, steps, 0).astype(np.uint16)
+
+
+def write_common(spec: SceneSpec, backend: RendererName, out: Path) -> None:
+    """Write camera.json, models_info.json and manifest.json once all scenes are whole."""
+    camera = PRESETS[spec.camera.preset].camera
+    write_json(out / "camera.json", bop.camera_table(camera, depth_scale_mm(spec)))
+    models: dict[str, Any] = {}
+    for index in range(spec.scenes):
+        for rock in read_json(out / scene_name(index) / "scene_gt_shape.json")["rocks"]:
+            models[str(rock["obj_id"])] = rock["model_mm"]
+    write_json(out / "models" / "models_info.json", models)
+    paths = sorted(
+        path.relative_to(out).as_posix()
+        for path in out.rglob("*")
+        if path.is_file() and path != out / "manifest.json"
+    )
+    manifest = {**identity(spec, backend), "files": {path: sha256(out / path) for path in paths}}
+    write_json(out / "manifest.json", manifest)
+
+
+def identity(spec: SceneSpec, backend: RendererName) -> dict[str, Any]:
+    """Return what the dataset's bytes depend on: spec, backend and versions."""
+    names = (*_DISTRIBUTIONS, _BACKEND_DISTRIBUTION[backend])
+    return {
+        "spec": msgspec.to_builtins(spec),
+        "seed": spec.seed,
+        "backend": backend,
+        "versions": {name: version(name) for name in names},
+    }
+
+
+def _write_view(folder: Path, number: int, view: View, scale_mm: float) -> None:
+    stem = f"{number:06d}"
+    write_png(folder / "gray" / f"{stem}.png", view.image)
+    write_png(folder / "depth" / f"{stem}.png", encode_depth(view.depth_m, scale_mm))
+    write_png(folder / "labels" / f"{stem}.png", view.labels)
+    for instance, silhouette in enumerate(view.silhouettes):
+        name = f"{stem}_{instance:06d}.png"
+        visible = view.labels == instance + 1
+        write_png(folder / "mask" / name, 255 * silhouette.astype(np.uint8))
+        write_png(folder / "mask_visib" / name, 255 * visible.astype(np.uint8))
+
+
+def _write_tables(
+    folder: Path, scene: Scene, index: int, views: list[View], scale_mm: float
+) -> None:
+    write_json(folder / "scene_camera.json", bop.scene_camera(scene, scale_mm))
+    write_json(folder / "scene_gt.json", bop.scene_gt(scene, index))
+    write_json(folder / "scene_gt_info.json", bop.scene_gt_info(views))
+    write_json(folder / "scene_gt_coco.json", bop.scene_gt_coco(scene, index, views))
+    write_json(folder / "scene_gt_shape.json", bop.scene_gt_shape(scene, index, views))
+
+
+def _publish(folder: Path, out: Path) -> None:
+    """Move a whole scene into place: its models first, the folder's renaming seals it."""
+    models = out / "models"
+    models.mkdir(exist_ok=True)
+    for path in sorted((folder / "models").iterdir()):
+        path.replace(models / path.name)
+    (folder / "models").rmdir()
+    folder.replace(out / folder.name)

@@ -1,0 +1,13 @@
+"""What a user or a machine can get wrong; each error carries the command's exit status."""
+
+
+class InputError(ValueError):
+    """Unusable input: the message is one line that says what, where, expected and found."""
+
+    exit_status = 2
+
+
+class MissingBackendError(RuntimeError):
+    """A renderer that this machine lacks: the message names the package to install."""
+
+    exit_status = 3

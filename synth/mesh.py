@@ -1,0 +1,80 @@
+"""Triangle meshes and the exact integrals over the bodies they bound."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """A closed surface; faces run anticlockwise seen from outside."""
+
+    vertices_m: Floats  # (n, 3)
+    faces: Ints  # (m, 3), indices of vertices
+    normals: Floats  # (n, 3), outward unit normals at the vertices
+
+    def __post_init__(self) -> None:
+        """Make the arrays read-only."""
+        for array in (self.vertices_m, self.faces, self.normals):
+            array.setflags(write=False)
+
+    def moved(self, rotation: Floats, translation_m: Floats) -> "Mesh":
+        """Return the mesh turned by a rotation (3, 3), then shifted by a translation (3,)."""
+        return Mesh(
+            vertices_m=self.vertices_m @ rotation.T + translation_m,
+            faces=self.faces.copy(),
+            normals=self.normals @ rotation.T,
+        )
+
+
+def volume_m3(mesh: Mesh) -> float:
+    """Return the enclosed volume: the sum of the signed tetrahedra on the origin (Gauss)."""
+    first, second, third = _corners_m(mesh)
+    return float(np.einsum("ij,ij->", first, np.cross(second, third)) / 6.0)
+
+
+def area_m2(mesh: Mesh) -> float:
+    """Return the surface's area."""
+    first, second, third = _corners_m(mesh)
+    return float(np.linalg.norm(np.cross(second - first, third - first), axis=1).sum() / 2.0)
+
+
+def centroid_m(mesh: Mesh) -> Floats:
+    """Return the centroid of the enclosed volume, (3,)."""
+    corners = _corners_m(mesh)
+    six_volumes = np.einsum("ij,ij->i", corners[0], np.cross(corners[1], corners[2]))
+    return np.asarray(six_volumes @ corners.sum(axis=0) / (4.0 * six_volumes.sum()))
+
+
+def covariance_m2(mesh: Mesh) -> Floats:
+    """Return the second central moments of the enclosed volume over its volume, (3, 3).
+
+    Over the tetrahedron of the origin and p₁, p₂, p₃ with volume v,
+    ∫ x xᵀ = v/20 (Σ pᵢpᵢᵀ + (Σ pᵢ)(Σ pᵢ)ᵀ).
+    """
+    corners = _corners_m(mesh)
+    volumes = np.einsum("ij,ij->i", corners[0], np.cross(corners[1], corners[2])) / 6.0
+    total = corners.sum(axis=0)
+    squares = np.einsum("kni,knj,n->ij", corners, corners, volumes)
+    squares += np.einsum("ni,nj,n->ij", total, total, volumes)
+    centre = centroid_m(mesh)
+    return np.asarray(squares / (20.0 * volumes.sum()) - np.outer(centre, centre))
+
+
+def vertex_normals(vertices_m: Floats, faces: Ints) -> Floats:
+    """Return unit normals at the vertices, (n, 3): the area-weighted mean over the faces around."""
+    corners = vertices_m[faces]
+    doubled = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    sums = np.zeros_like(vertices_m)
+    for corner in range(3):
+        np.add.at(sums, faces[:, corner], doubled)
+    return np.asarray(sums / np.linalg.norm(sums, axis=1, keepdims=True))
+
+
+def _corners_m(mesh: Mesh) -> Floats:
+    """Return the faces' corners, (3, m, 3)."""
+    return np.asarray(mesh.vertices_m[mesh.faces].transpose(1, 0, 2))

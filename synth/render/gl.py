@@ -1,0 +1,102 @@
+"""OpenGL through pyrender, on OSMesa or EGL.
+
+Import this module only in a process whose PYOPENGL_PLATFORM is set: a process has one platform.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+import pyrender
+from numpy.typing import NDArray
+from pyrender.constants import GLTF, RenderFlags
+
+from synth.camera import Camera, Pose
+from synth.light import Body, Stage
+
+_SKY = 0.75
+_OPENGL_FROM_OPENCV = np.diag([1.0, -1.0, -1.0])  # y up and z backward
+
+
+class GLRenderer:
+    """A stage as a pyrender scene.
+
+    The image is drawn flat from the vertices' brightness, so it does not depend on pyrender's
+    shading. Depth comes from the segmentation pass, which is never multisampled. Each pass makes
+    its own off-screen context and deletes it: contexts that live on lose memory with every frame.
+    """
+
+    def __init__(self, stage: Stage, camera: Camera) -> None:
+        self._camera = camera
+        self._scene = pyrender.Scene(bg_color=[_SKY, _SKY, _SKY, 1.0])
+        self._rocks = [self._scene.add(_mesh(rock)) for rock in stage.rocks]
+        self._ground = self._scene.add(_mesh(stage.ground))
+        if stage.shadows is not None:
+            self._scene.add(_mesh(stage.shadows))
+
+    def measure(
+        self, pose: Pose, limits_m: tuple[float, float], rocks: Sequence[int] | None
+    ) -> tuple[NDArray[np.uint16], NDArray[np.float64]]:
+        """See `Renderer.measure`."""
+        shown = range(len(self._rocks)) if rocks is None else rocks
+        colours = {self._rocks[index]: _colour(index + 1) for index in shown}
+        if rocks is None:
+            colours[self._ground] = _colour(0)
+        colour, depth_m = self._render(
+            self._camera, pose, limits_m, flags=RenderFlags.SEG, colours=colours
+        )
+        labels = colour[..., 0].astype(np.uint16) + 256 * colour[..., 1].astype(np.uint16)
+        return labels, np.where(depth_m > 0.0, depth_m.astype(np.float64), np.nan)
+
+    def paint(self, pose: Pose, limits_m: tuple[float, float], factor: int) -> NDArray[np.uint8]:
+        """See `Renderer.paint`."""
+        camera = self._camera.refined(factor)
+        colour, _ = self._render(camera, pose, limits_m, flags=RenderFlags.FLAT, colours=None)
+        return np.ascontiguousarray(colour[..., 0])
+
+    def _render(
+        self,
+        camera: Camera,
+        pose: Pose,
+        limits_m: tuple[float, float],
+        *,
+        flags: int,
+        colours: dict[pyrender.Node, tuple[int, int, int]] | None,
+    ) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
+        # pyrender's pixel centres are at +0.5.
+        eye = pyrender.IntrinsicsCamera(
+            camera.fx,
+            camera.fy,
+            camera.cx + 0.5,
+            camera.cy + 0.5,
+            znear=limits_m[0],
+            zfar=limits_m[1],
+        )
+        camera_to_world = np.eye(4)
+        camera_to_world[:3, :3] = pose.world_to_camera.T @ _OPENGL_FROM_OPENCV
+        camera_to_world[:3, 3] = pose.position_m()
+        node = self._scene.add(eye, pose=camera_to_world)
+        self._scene.main_camera_node = node
+        renderer = pyrender.OffscreenRenderer(camera.width, camera.height)
+        try:
+            colour, depth_m = renderer.render(self._scene, flags=flags, seg_node_map=colours)
+            return colour.copy(), depth_m.copy()
+        finally:
+            renderer.delete()
+            self._scene.remove_node(node)
+
+
+def _mesh(body: Body) -> pyrender.Mesh:
+    colour = np.ones((len(body.brightness), 4), dtype=np.float32)
+    colour[:, :3] = body.brightness[:, None]
+    primitive = pyrender.Primitive(
+        positions=body.vertices_m.astype(np.float32),
+        indices=body.faces.astype(np.uint32),
+        color_0=colour,
+        material=pyrender.MetallicRoughnessMaterial(alphaMode="OPAQUE"),
+        mode=GLTF.TRIANGLES,
+    )
+    return pyrender.Mesh(primitives=[primitive])
+
+
+def _colour(label: int) -> tuple[int, int, int]:
+    return label % 256, label // 256, 0

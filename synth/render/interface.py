@@ -1,0 +1,25 @@
+"""What every backend does."""
+
+from collections.abc import Sequence
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from synth.camera import Pose
+
+
+class Renderer(Protocol):
+    """A stage and a camera, ready to be seen from any pose."""
+
+    def measure(
+        self, pose: Pose, limits_m: tuple[float, float], rocks: Sequence[int] | None
+    ) -> tuple[NDArray[np.uint16], NDArray[np.float64]]:
+        """Return labels and z-depth, each (rows, cols), sampled at the pixels' centres.
+
+        Labels are 1 + the rock's index, 0 elsewhere; depth is in metres, NaN where nothing is.
+        With `rocks` given, only those rocks exist, and no ground. `limits_m` holds all depths.
+        """
+
+    def paint(self, pose: Pose, limits_m: tuple[float, float], factor: int) -> NDArray[np.uint8]:
+        """Return the brightness, (rows × factor, cols × factor), 255 for white."""

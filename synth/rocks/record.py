@@ -1,0 +1,17 @@
+"""A rock: its surface and what is true of it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from synth.mesh import Mesh
+from synth.truth import Truth
+
+
+@dataclass(frozen=True, eq=False)
+class Rock:
+    """One body in its own frame: the origin at its centroid, a, b, c of its box along x, y, z."""
+
+    family: str
+    knobs: Mapping[str, float]  # what it was made from, each name with its unit
+    mesh: Mesh
+    truth: Truth

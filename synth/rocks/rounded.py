@@ -1,0 +1,97 @@
+"""Rounded polyhedra and rounded boxes with given half-axes, P ⊕ B_r."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from synth.mesh import centroid_m, covariance_m2
+from synth.rocks.polyhedron import (
+    Polyhedron,
+    cuboid,
+    functionals,
+    largest_ball,
+)
+from synth.rocks.record import Rock
+from synth.rocks.rounding import rounded_area_m2, rounded_mesh, rounded_volume_m3
+from synth.truth import Truth, half_axes_of_covariance_m, nearby_box, smallest_box
+
+Floats = NDArray[np.float64]
+
+_ROUNDS = 4
+_STEPS = 12
+_SETTLED_WITHIN, _HELD_WITHIN = 1e-6, 0.01
+
+
+class UnsettledError(ArithmeticError):
+    """A polyhedron whose smallest box will not settle at the wanted half-axes."""
+
+
+def hold_axes(
+    polyhedron: Polyhedron, half_axes_m: Floats, *, rounding: float
+) -> tuple[Polyhedron, float]:
+    """Return P' and r such that the smallest box of P' ⊕ B_r has the given half-axes within 1 %.
+
+    P' is an affine image of P, in the frame of that box, and r = rounding × inradius(P'). Each
+    step turns the body into its box and stretches it by (target − r)/(half side − r) along each
+    axis; the half sides of a sum are the sums of the half sides. The box is followed until it has
+    the half-axes to 1e-6, then sought afresh: another of nearly the same volume may have taken
+    its place, and the truth is measured on the one that is smallest.
+
+    Raises:
+        UnsettledError: the smallest box keeps changing; another P is wanted.
+    """
+    body = polyhedron
+    for _ in range(_ROUNDS):
+        radius_m = rounding * largest_ball(body)[1]
+        box = smallest_box(body.vertices_m, margin_m=radius_m)
+        body = body.shifted(-box.centre_m).mapped(box.axes)
+        if np.abs(half_axes_m / box.half_sides_m - 1.0).max() < _HELD_WITHIN:
+            return body, radius_m
+        for _ in range(_STEPS):
+            stretch = (half_axes_m - radius_m) / (box.half_sides_m - radius_m)
+            body = body.mapped(np.diag(np.clip(stretch, 0.5, 2.0)))
+            radius_m = rounding * largest_ball(body)[1]
+            box = nearby_box(body.vertices_m, margin_m=radius_m)
+            body = body.shifted(-box.centre_m).mapped(box.axes)
+            if np.abs(half_axes_m / box.half_sides_m - 1.0).max() < _SETTLED_WITHIN:
+                break
+    raise UnsettledError
+
+
+def rounded_polyhedron(polyhedron: Polyhedron, half_axes_m: Floats, *, rounding: float) -> Rock:
+    """Return the rock P' ⊕ B_r with the given half-axes; see `hold_axes`, which may raise."""
+    body, radius_m = hold_axes(polyhedron, half_axes_m, rounding=rounding)
+    box_m = smallest_box(body.vertices_m, margin_m=radius_m).half_sides_m
+    knobs = {"cuts": float(len(body.loops)), "rounding": rounding}
+    return _rock("rounded-polyhedron", body, radius_m, box_m, knobs)
+
+
+def rounded_box(half_axes_m: Floats, *, rounding: float) -> Rock:
+    """Return the rock box ⊕ B_r with the given half-axes; r = rounding × the box's least half side.
+
+    c = core + r and r = rounding × core give r = c × rounding/(1 + rounding).
+    """
+    radius_m = float(half_axes_m[2]) * rounding / (1.0 + rounding)
+    body = cuboid(half_axes_m - radius_m)
+    return _rock("rounded-box", body, radius_m, half_axes_m.copy(), {"rounding": rounding})
+
+
+def _rock(
+    family: str, body: Polyhedron, radius_m: float, box_m: Floats, knobs: dict[str, float]
+) -> Rock:
+    """Return the record of P ⊕ B_r, its centroid at the origin."""
+    mesh = rounded_mesh(body, radius_m)
+    inradius_m = largest_ball(body)[1]
+    measured = functionals(body)
+    truth = Truth(
+        half_axes_box_m=box_m,
+        half_axes_inertia_m=half_axes_of_covariance_m(covariance_m2(mesh)),
+        volume_m3=rounded_volume_m3(measured, radius_m),
+        area_m2=rounded_area_m2(measured, radius_m),
+        roundness=radius_m / (inradius_m + radius_m),
+    )
+    return Rock(
+        family=family,
+        knobs={**knobs, "radius_m": radius_m, "inradius_m": inradius_m},
+        mesh=mesh.moved(np.eye(3), -centroid_m(mesh)),
+        truth=truth,
+    )

@@ -1,0 +1,49 @@
+"""The command line's contract: exit status 2 and 3 with one line, files where asked."""
+
+import pytest
+
+from rockshape.cli import main
+from synth.render import choice
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["scene", "--camera", "foo"], ["--camera", "imp", "msl-navcam", "'foo'"]),
+        (["scene", "--renderer", "foo"], ["--renderer", "osmesa", "'foo'"]),
+        (["scene", "--noise", "stereo"], ["--noise", "none", "'stereo'"]),
+        (["scene", "--rocks", "0"], ["--rocks", "found 0"]),
+        (["scene", "--rocks", "9999"], ["rocks.count"]),
+        (["scene", "--seed", "-1"], ["--seed"]),
+        (["scene", "--jobs", "0"], ["--jobs"]),
+        (["scene", "--spec", "absent.toml"], ["absent.toml", "TOML"]),
+        (["shapes", "--series", "star"], ["--series", "roundness", "'star'"]),
+        (["shapes", "--series", "roundness", "--count", "0"], ["--count"]),
+        (["shapes", "--series", "roundness", "--seed", "-1"], ["--seed"]),
+    ],
+)
+def test_a_mistake_is_one_line_and_status_2(tmp_path, capsys, options, words):
+    kind, *rest = options
+    assert main(["synth", kind, str(tmp_path / "out"), *rest]) == 2
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert all(word in error for word in words)
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_missing_renderer_is_status_3(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(choice, "has_backend", lambda _: False)
+    assert main(["synth", "scene", str(tmp_path / "out"), "--renderer", "egl"]) == 3
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert "libegl1" in error
+    assert not (tmp_path / "out").exists()
+
+
+def test_shapes_are_written(tmp_path):
+    assert main(["synth", "shapes", str(tmp_path / "out"), "--series", "sphericity"]) == 0
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {
+        "image.png",
+        "labels.png",
+        "truth.csv",
+    }

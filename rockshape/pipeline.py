@@ -90,13 +90,11 @@ class _Scene:
 
 def _windows(labels: NDArray[np.int32]) -> list[tuple[int, tuple[slice, slice]]]:
     """Each number in the label image and the box its pixels lie in; numbers may have gaps."""
-    numbers, dense = np.unique(labels, return_inverse=True)
-    windows = ndi.find_objects(dense.reshape(labels.shape) + 1)
-    return [
-        (int(number), window)
-        for number, window in zip(numbers, windows, strict=True)
-        if number != 0
-    ]
+    rocks = labels != 0
+    numbers = np.unique(labels[rocks])
+    dense = np.zeros(labels.shape, dtype=np.int32)
+    dense[rocks] = np.searchsorted(numbers, labels[rocks]) + 1
+    return list(zip(numbers.tolist(), ndi.find_objects(dense), strict=True))
 
 
 def _measure_rock(scene: _Scene, number: int, window: tuple[slice, slice]) -> Rock:

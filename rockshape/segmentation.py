@@ -101,11 +101,16 @@ def segment(height_m: NDArray[np.float64], *, sigma_m: float) -> NDArray[np.int3
 
 def _find_tops(levels: NDArray[np.int32], known: NDArray[np.bool_]) -> NDArray[np.int32]:
     """Tops that stand high enough above their saddle and above the ground, numbered from 1."""
-    rise = np.maximum(TOP_LEVELS, np.ceil(TOP_SHARE * levels)).astype(np.int32)
+    rise = np.maximum(TOP_LEVELS, TOP_SHARE * levels)
     flooded = reconstruction(levels - rise, levels, method="dilation")
     standing = levels - flooded >= rise
-    high = known & (levels >= GROUND_LEVELS + TOP_LEVELS)
-    return np.asarray(label(standing & high, connectivity=2), dtype=np.int32)
+    standing &= known & (levels >= GROUND_LEVELS + TOP_LEVELS)
+    # the flood joins peaks of equal height that no valley parts: they are one top
+    quarters = np.rint((flooded - flooded.min()) / TOP_SHARE).astype(np.int32) + 1
+    tops = np.zeros(levels.shape, dtype=np.int32)
+    _, tops[standing] = np.unique(label(quarters, connectivity=2)[standing], return_inverse=True)
+    tops[standing] += 1
+    return tops
 
 
 def _on_border(tops: NDArray[np.int32], known: NDArray[np.bool_]) -> NDArray[np.int32]:

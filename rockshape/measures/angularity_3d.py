@@ -13,6 +13,9 @@ def angularity_3d_per_m(surface: Surface, *, signed: bool = False) -> float:
     integral over the rim, and ranks rocks of known roughness backwards. The absolute mean is used,
     as all published values are positive. Neither is 0 on a sphere: seen out to the radius r, a
     sphere of radius R scores 1/sqrt(R² - r²) and diverges at its limb.
+
+    It tells relief, not the rounding of edges: across an edge the second derivative integrates to
+    the change of slope, however sharp or round the edge is.
     Source: Fox et al. (2002), equations 16 and 17.
     """
     mean = (surface.second_uu_per_m + surface.second_ww_per_m) / 2

@@ -83,3 +83,11 @@ def test_rocks_are_numbered_in_reading_order(scale: float) -> None:
     labels = segment(scale * heights, sigma_m=0.001)
     assert labels[20, 60] == 1
     assert labels[60, 20] == 2
+
+
+def test_peaks_of_equal_height_on_one_ridge_are_one_top() -> None:
+    heights = dome((80, 120), 40, 60, 30, 0.3)
+    ridge = np.full((80, 120), np.inf)
+    ridge[:, ::2] = 0.2
+    ridge[:, 1::2] = 0.199  # less than a level below, but in another one
+    assert segment(np.minimum(heights, ridge), sigma_m=0.001).max() == 1

@@ -22,7 +22,7 @@ def overlay(image: NDArray[np.float32], measurement: Measurement) -> NDArray[np.
     size = (image.shape[1] * scale, image.shape[0] * scale)
     enlarged = cv2.resize(grey, size, interpolation=cv2.INTER_CUBIC)
     canvas = cv2.cvtColor(enlarged, cv2.COLOR_GRAY2RGB).astype(np.uint8, copy=False)
-    thick = max(1, round(max(size) / 700))
+    thick = max(1, round(max(size) / 500))
     for rock in measurement.rocks:
         _draw_lines(canvas, rock, scale, thick)
     for rock in measurement.rocks:

@@ -1,0 +1,113 @@
+"""Records made without rendering: what the scores, gates and report are tested on."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from validation.claims import SHAPES_CLAIMS, YARD_CLAIMS
+from validation.suite import ShapesExperiment, Suite, YardExperiment, load_suite
+
+MEASURES = (
+    "axis_ratio",
+    "ellipse_error_px2",
+    "sphericity_2d",
+    "angularity_2d_deg",
+    "ellipsoid_error_m2",
+    "sphericity_3d",
+    "angularity_3d_per_m",
+)
+
+
+def _rows(
+    place: dict[str, object],
+    truths: dict[str, np.ndarray],
+    *,
+    views: int,
+    rng: np.random.Generator,
+) -> pd.DataFrame:
+    rocks = len(next(iter(truths.values())))
+    measured = {"eligible": True, "status": "matched", "iou": 0.9}
+    return pd.DataFrame(
+        [
+            place
+            | measured
+            | {"view": view, "instance": instance, "rock": instance + 1}
+            | {name: float(values[instance]) for name, values in truths.items()}
+            | {measure: float(rng.uniform(0.1, 1.0)) for measure in MEASURES}
+            for view in range(views)
+            for instance in range(rocks)
+        ]
+    )
+
+
+def _yard(experiment: YardExperiment, rng: np.random.Generator) -> Iterator[pd.DataFrame]:
+    rocks = experiment.scene.rocks.count
+    for scene in range(experiment.scenes):
+        roundness = np.linspace(0.05, 0.6, rocks)
+        truths = {
+            "truth_roundness": roundness,
+            "truth_angularity": 1 - roundness,
+            "truth_maximum_projection_sphericity": rng.permutation(rocks) / 10 + 0.3,
+        }
+        place = {"experiment": experiment.name, "kind": "yard", "series": "", "scene": scene}
+        place["seed"] = experiment.seed + scene
+        yield _rows(place, truths, views=experiment.scene.views.count, rng=rng)
+
+
+def _shapes(experiment: ShapesExperiment, rng: np.random.Generator) -> Iterator[pd.DataFrame]:
+    truths = {
+        "truth_angularity": np.array([0.95, 0.6, 0.3, 0.2]),
+        "truth_axis_ratio": np.array([0.2, 0.22, 0.7, 0.9]),
+        "truth_rectangle_ratio": np.array([0.21, 0.23, 0.72, 0.93]),
+    }
+    for series in experiment.series:
+        for drawing in range(experiment.drawings):
+            place = {"experiment": experiment.name, "kind": "shapes", "series": series}
+            place |= {"scene": drawing, "seed": experiment.seed + drawing}
+            yield _rows(place, truths, views=1, rng=rng)
+
+
+def fabricate(suite: Suite, *, rng: np.random.Generator) -> pd.DataFrame:
+    """Return records of a suite whose measures are pure noise."""
+    parts: list[pd.DataFrame] = []
+    for experiment in suite.experiments:
+        make = _yard if isinstance(experiment, YardExperiment) else _shapes
+        parts.extend(make(experiment, rng))
+    return pd.concat(parts, ignore_index=True)
+
+
+def ranking_names(suite: Suite) -> list[str]:
+    """Return the names of the scores that hold an order against the truth."""
+    names: list[str] = []
+    for experiment in suite.experiments:
+        if isinstance(experiment, YardExperiment):
+            claims = [claim for varied in experiment.varied for claim in YARD_CLAIMS[varied]]
+            keys = ("tau", "pairs_across")
+            names.extend(f"{experiment.name}.{c.measure}.{key}" for c in claims for key in keys)
+        else:
+            names.extend(
+                f"{experiment.name}.{series}.{claim.measure}.tau"
+                for series in experiment.series
+                for claim in SHAPES_CLAIMS[series]
+            )
+    return names
+
+
+@pytest.fixture(scope="session")
+def suite() -> Suite:
+    """The suite `ci`."""
+    return load_suite("ci")
+
+
+@pytest.fixture(scope="session")
+def noise(suite) -> pd.DataFrame:
+    """Records of the suite whose measures are noise."""
+    return fabricate(suite, rng=np.random.default_rng(5))
+
+
+@pytest.fixture(scope="session")
+def ranking(suite) -> list[str]:
+    """The names of the suite's scores that hold an order against the truth."""
+    return ranking_names(suite)

@@ -1,0 +1,105 @@
+"""Scores on fabricated records: the oracle is perfect, shuffled truth is not, noise is noise."""
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from validation.gates import Gate, evaluate
+from validation.oracle import oracle, shuffled
+from validation.scores import definitions, score_records, score_values
+from validation.scores.shapes import gap_shares
+
+
+def test_the_oracle_scores_one(suite, noise, ranking) -> None:
+    values = score_values(suite, oracle(noise))
+    assert {name: values[name] for name in ranking} == dict.fromkeys(ranking, 1.0)
+    assert (values["yard.recall"], values["yard.precision"], values["yard.mean_iou"]) == (1, 1, 1)
+    assert values["yard.angularity_2d_deg.kendall_w"] == 1.0
+    assert values["yard.angularity_2d_deg.tau_views"] == 1.0
+    rounding = 1e-12
+    assert values["yard.angularity_2d_deg.cv"] == pytest.approx(0.0, abs=rounding)
+    assert values["yard.angularity_2d_deg.icc_2_1"] == pytest.approx(1.0, abs=rounding)
+    assert values["shapes.sphericity.axis_ratio.gap_error"] == pytest.approx(0.0, abs=rounding)
+    assert values["shapes.sphericity.axis_ratio.error"] == 0.0
+    assert values["shapes.roundness.ellipse_error_px2.gap_error"] == pytest.approx(
+        0.0, abs=rounding
+    )
+
+
+def test_the_oracle_passes_every_gate_of_the_suite(suite, noise) -> None:
+    results = evaluate(suite.gates, score_values(suite, oracle(noise)))
+    assert [r.gate.score for r in results if not r.passed] == []
+
+
+def test_shuffled_truth_fails_every_gate_on_the_order_against_it(suite, noise, ranking) -> None:
+    fed = shuffled(noise, rng=np.random.default_rng(0))
+    results = evaluate(suite.gates, score_values(suite, fed))
+    judged = [r for r in results if r.gate.score in ranking]
+    assert judged
+    assert [r.gate.score for r in judged if r.passed] == []
+
+
+def test_shuffling_leaves_the_agreement_of_the_views(suite, noise) -> None:
+    values = score_values(suite, shuffled(noise, rng=np.random.default_rng(0)))
+    assert values["yard.angularity_2d_deg.kendall_w"] == 1.0
+
+
+def test_noise_fails_a_gate_on_order_for_every_measure(suite, noise, ranking) -> None:
+    # 240 and more independent pairs a measure within views: τ_b of noise has a standard deviation
+    # below 0.15 even with 3 pairs clustered to a rock, so that 0.6 is four of them away.
+    gates = [Gate(score=n, at_least=0.6, reason="r") for n in ranking if "yard" in n]
+    assert not any(r.passed for r in evaluate(gates, score_values(suite, noise)))
+
+
+def test_every_score_has_a_count_and_an_ordered_interval(suite, noise) -> None:
+    scores = score_records(suite, noise)
+    assert [score.name for score in scores] == [d.name for d in definitions(suite)]
+    rounding = 1e-12  # a weighted mean of equal values
+    for score in scores:
+        assert score.count > 0, score.name
+        if math.isfinite(score.low):
+            assert score.low - rounding <= score.value <= score.high + rounding, score.name
+    with_interval = {s.name.rpartition(".")[2] for s in scores if math.isfinite(s.low)}
+    assert with_interval >= {"tau", "pairs_across", "cv", "cv_normalised", "tau_views"}
+
+
+def test_intervals_are_the_same_every_time(suite, noise) -> None:
+    first, second = score_records(suite, noise), score_records(suite, noise)
+    assert repr(first) == repr(second)
+
+
+def test_missed_rocks_lower_recall_and_leave_the_order(suite, noise) -> None:
+    fed = oracle(noise)
+    lost = (fed["experiment"] == "yard") & (fed["view"] == 0) & (fed["instance"] == 2)
+    fed.loc[lost, "status"] = "missed"
+    fed.loc[lost, ["iou", "angularity_2d_deg"]] = np.nan
+    values = score_values(suite, fed)
+    assert values["yard.recall"] == pytest.approx(1 - 1 / 24, rel=1e-12)
+    assert values["yard.angularity_2d_deg.tau"] == 1.0
+
+
+def test_rocks_not_in_plain_view_do_not_count(suite, noise) -> None:
+    fed = oracle(noise)
+    hidden = (fed["experiment"] == "yard") & (fed["instance"] == 2)
+    fed.loc[hidden, "eligible"] = False
+    fed.loc[hidden, "angularity_2d_deg"] = -1.0
+    fed.loc[hidden, "status"] = "missed"
+    values = score_values(suite, fed)
+    assert (values["yard.recall"], values["yard.angularity_2d_deg.tau"]) == (1.0, 1.0)
+
+
+def test_extra_rocks_lower_precision_alone(suite, noise) -> None:
+    fed = oracle(noise)
+    extra = fed[fed["experiment"] == "yard"].head(6).assign(status="extra", eligible=False)
+    rows = len(fed[fed["experiment"] == "yard"])
+    values = score_values(suite, pd.concat([fed, extra], ignore_index=True))
+    assert values["yard.precision"] == pytest.approx(rows / (rows + 6), rel=1e-12)
+    assert (values["yard.recall"], values["yard.angularity_2d_deg.tau"]) == (1.0, 1.0)
+
+
+def test_gap_shares() -> None:
+    assert gap_shares(np.array([1.0, 2.0, 5.0])).tolist() == [0.25, 0.75]
+    assert gap_shares(np.array([5.0, 2.0, 1.0])).tolist() == [0.75, 0.25]
+    assert np.isnan(gap_shares(np.array([1.0, 2.0, 1.0]))).all()

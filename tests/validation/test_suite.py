@@ -1,0 +1,71 @@
+"""Suite files: those of the package are whole, and a user's mistake is named."""
+
+from importlib.resources import files
+
+import pytest
+
+from validation.errors import InputError
+from validation.gates import check_names
+from validation.scores import definitions
+from validation.suite import load_gates, load_suite, suite_names
+
+CI = (files("validation") / "suites" / "ci.toml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", suite_names())
+def test_every_suite_is_whole(name) -> None:
+    suite = load_suite(name)
+    assert suite.name == name
+    known = [definition.name for definition in definitions(suite)]
+    assert len(set(known)) == len(known)
+    check_names(suite.gates, known, where=name)
+    assert all(experiment.seed >= 10000 for experiment in suite.experiments)
+
+
+def test_the_suites_of_the_contract_are_there() -> None:
+    assert {"ci", "shapes", "yard"} <= set(suite_names())
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "named"),
+    [
+        ("scenes =", "scnes =", "scnes"),
+        ("seed = 10000", "seed = -1", "seed"),
+        ('kind = "yard"', 'kind = "garden"', "garden"),
+        ("count = 6", "count = 0", "count"),
+        (
+            "[experiment.scene.rocks]",
+            "[experiment.scene]\nseed = 3\n[experiment.scene.rocks]",
+            "seed",
+        ),
+        ('name = "form"', 'name = "yard"', "differ"),
+        ("reason =", "why =", "why"),
+    ],
+)
+def test_a_bad_key_is_named(tmp_path, old, new, named) -> None:
+    assert old in CI
+    path = tmp_path / "bad.toml"
+    path.write_text(CI.replace(old, new, 1), encoding="utf-8")
+    with pytest.raises(InputError, match=named) as error:
+        load_suite(str(path))
+    assert str(error.value).startswith(str(path))
+
+
+def test_no_such_suite() -> None:
+    with pytest.raises(InputError, match=r"--suite: expected one of ci, .*found 'nope'"):
+        load_suite("nope")
+
+
+@pytest.mark.parametrize("content", [None, b"", b"a = [", b"\xff\xfe\x00"])
+def test_unreadable_files(tmp_path, content) -> None:
+    path = tmp_path / "x.toml"
+    if content is not None:
+        path.write_bytes(content)
+    for load in (load_gates, lambda p: load_suite(str(p))):
+        with pytest.raises(InputError, match=r"expected|missing"):
+            load(path)
+
+
+def test_a_folder_for_a_file(tmp_path) -> None:
+    with pytest.raises(InputError, match="directory"):
+        load_gates(tmp_path)

@@ -1,0 +1,36 @@
+"""How well values agree with a true order, and with themselves from another view.
+
+Every function takes one `Block` or a sequence of them, so that the paper's tables and our scenes
+go through the same code.
+"""
+
+from validation.agreement.block import Block
+from validation.agreement.concordance import kendall_w
+from validation.agreement.correlation import IntraclassCorrelation, intraclass_correlation
+from validation.agreement.pairs import (
+    Pairs,
+    across_views,
+    between_views,
+    share_in_order,
+    tau_b,
+    within_views,
+)
+from validation.agreement.variation import (
+    coefficients_of_variation,
+    divide_by_view_means,
+)
+
+__all__ = [
+    "Block",
+    "IntraclassCorrelation",
+    "Pairs",
+    "across_views",
+    "between_views",
+    "coefficients_of_variation",
+    "divide_by_view_means",
+    "intraclass_correlation",
+    "kendall_w",
+    "share_in_order",
+    "tau_b",
+    "within_views",
+]

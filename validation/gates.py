@@ -1,0 +1,84 @@
+"""Gates: a score, a bound and a reason; what misses its bound fails the run."""
+
+import math
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated
+
+from msgspec import Meta, Struct
+
+from validation.errors import InputError
+
+Text = Annotated[str, Meta(min_length=1)]
+
+
+class Gate(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """One bound on one score, with the reason why it stands where it stands."""
+
+    score: Text
+    at_least: float | None = None
+    at_most: float | None = None
+    reason: Text
+
+    def __post_init__(self) -> None:
+        """Ask for exactly one finite bound."""
+        bounds = [bound for bound in (self.at_least, self.at_most) if bound is not None]
+        if len(bounds) != 1 or not math.isfinite(bounds[0]):
+            raise ValueError(
+                f"gate {self.score!r}: expected one finite number, at_least or at_most, "
+                f"found {bounds or 'neither'}"
+            )
+
+    @property
+    def bound(self) -> float:
+        """The number to reach or not to pass."""
+        if self.at_least is not None:
+            return self.at_least
+        return math.nan if self.at_most is None else self.at_most
+
+    @property
+    def relation(self) -> str:
+        """≥ or ≤."""
+        return "≥" if self.at_least is not None else "≤"
+
+
+class GateFile(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """A file of gates alone, for `--gates`."""
+
+    gate: Annotated[tuple[Gate, ...], Meta(min_length=1)]
+
+
+@dataclass(frozen=True)
+class GateResult:
+    """A gate and the value it met; NaN where there was none."""
+
+    gate: Gate
+    found: float
+    passed: bool
+
+
+def check_names(gates: Sequence[Gate], known: Collection[str], *, where: str) -> None:
+    """Refuse a gate on a score that the suite does not have.
+
+    Raises:
+        InputError: names the file, the gate and the scores that come closest.
+    """
+    for index, gate in enumerate(gates):
+        if gate.score in known:
+            continue
+        prefix = gate.score.rpartition(".")[0]
+        near = sorted(name for name in known if prefix and name.startswith(prefix + "."))
+        expected = ", ".join(near or sorted(known))
+        raise InputError(
+            f"{where}: gate[{index}].score: expected one of {expected}, found {gate.score!r}"
+        )
+
+
+def evaluate(gates: Sequence[Gate], values: Mapping[str, float]) -> tuple[GateResult, ...]:
+    """Hold each gate against its score. A score that is missing or NaN fails, never passes."""
+    results = []
+    for gate in gates:
+        found = values.get(gate.score, math.nan)
+        passed = found >= gate.bound if gate.at_least is not None else found <= gate.bound
+        results.append(GateResult(gate=gate, found=found, passed=passed))
+    return tuple(results)

@@ -1,0 +1,70 @@
+"""The folder of a run, written beside its place and moved there when it is whole."""
+
+import json
+import os
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from validation.errors import InputError
+from validation.report.junit import junit_xml
+from validation.report.page import page_html
+from validation.report.scores_json import FORMAT, scores_json
+from validation.report.summary import summary_markdown
+from validation.run import Run
+
+SCORES = "scores.json"
+PAGE = "index.html"
+
+
+def _is_run(folder: Path) -> bool:
+    try:
+        held = json.loads((folder / SCORES).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return False
+    return isinstance(held, dict) and held.get("format") == FORMAT
+
+
+def check_target(out: Path) -> None:
+    """Refuse a place that holds something other than an earlier run, before any work is done.
+
+    Raises:
+        InputError: a file, a folder with other things in it, or a place that cannot be written.
+    """
+    if out.exists() and not out.is_dir():
+        raise InputError(f"--out: expected a folder, found the file {out}")
+    if out.is_dir() and any(out.iterdir()) and not _is_run(out):
+        raise InputError(
+            f"--out: expected an empty folder or an earlier run (with its {SCORES}), "
+            f"found other files in {out}"
+        )
+    try:
+        out.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(
+            f"--out: expected a place for a folder, found {error.strerror}: {out.parent}"
+        ) from error
+    if not os.access(out if out.is_dir() else out.parent, os.W_OK):
+        raise InputError(f"--out: expected a folder that can be written, found {out}")
+
+
+def write_run(run: Run, out: Path, *, command: str, seconds: float) -> None:
+    """Write the five files of a run.
+
+    They are made in a folder beside `out` and moved when all are whole. An earlier run's files
+    are replaced one by one, the page last; what else lies there stays.
+    """
+    check_target(out)
+    with TemporaryDirectory(prefix=f".{out.name}-", dir=out.parent) as staging:
+        whole = Path(staging) / "run"
+        whole.mkdir()
+        run.records.to_parquet(whole / "results.parquet", index=False)
+        (whole / SCORES).write_text(scores_json(run), encoding="utf-8")
+        (whole / "junit.xml").write_text(junit_xml(run), encoding="utf-8")
+        (whole / "summary.md").write_text(summary_markdown(run), encoding="utf-8")
+        page = page_html(run, command=command, seconds=seconds)
+        (whole / PAGE).write_text(page, encoding="utf-8")
+        if not out.exists():
+            whole.rename(out)
+            return
+        for file in sorted(whole.iterdir(), key=lambda file: (file.name == PAGE, file.name)):
+            file.replace(out / file.name)

@@ -1,0 +1,66 @@
+"""A run's scores and gates for machines; it holds no time and no place, so equal runs are equal."""
+
+import json
+import math
+
+from validation.gates import GateResult
+from validation.report.paper import paper_values
+from validation.report.provenance import seeds, versions
+from validation.run import Run
+from validation.scores import Score
+
+FORMAT = "rockshape validation run 1"
+
+
+def _number(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def _score(score: Score) -> dict[str, object]:
+    return {
+        "name": score.name,
+        "title": score.title,
+        "value": _number(score.value),
+        "unit": score.unit,
+        "count": score.count,
+        "counted": score.counted,
+        "low": _number(score.low),
+        "high": _number(score.high),
+    }
+
+
+def _gate(result: GateResult) -> dict[str, object]:
+    return {
+        "score": result.gate.score,
+        "at_least": result.gate.at_least,
+        "at_most": result.gate.at_most,
+        "reason": result.gate.reason,
+        "found": _number(result.found),
+        "passed": result.passed,
+    }
+
+
+def scores_json(run: Run) -> str:
+    """Return the JSON text; a value that does not exist is null."""
+    document = {
+        "format": FORMAT,
+        "suite": run.suite.name,
+        "passed": run.passed,
+        "backend": run.backend,
+        "seeds": seeds(run),
+        "versions": versions(),
+        "scores": [_score(score) for score in run.scores],
+        "gates": [_gate(result) for result in run.gates],
+        "paper": {
+            measure: {key: _number(value) for key, value in values.items()}
+            for measure, values in paper_values().items()
+        },
+        "self_check": {
+            "gates": len(run.gates),
+            "oracle_passes": sum(gate.passed for gate in run.oracle_gates),
+            "shuffled_passes": sum(gate.passed for gate in run.shuffled_gates),
+        },
+    }
+    return (
+        json.dumps(document, indent=1, sort_keys=True, allow_nan=False, ensure_ascii=False) + "\n"
+    )

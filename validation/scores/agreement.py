@@ -1,0 +1,119 @@
+"""The scores of one measure over several views: the statistics of the paper's tables 1 to 3."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.agreement import (
+    Block,
+    Pairs,
+    across_views,
+    between_views,
+    coefficients_of_variation,
+    divide_by_view_means,
+    intraclass_correlation,
+    kendall_w,
+    share_in_order,
+    tau_b,
+    within_views,
+)
+from validation.scores.score import Estimate
+
+
+@dataclass(frozen=True)
+class Statistic:
+    """A statistic of blocks; ours and the paper's go through the same `compute`."""
+
+    key: str
+    title: str
+    unit: str
+    counted: str
+    compute: Callable[[Sequence[Block]], Estimate]
+
+
+def _tau(pairs: Pairs) -> Estimate:
+    return Estimate(tau_b(pairs), pairs.decided, pairs.rocks, lambda w: tau_b(pairs, w))
+
+
+def _share(pairs: Pairs) -> Estimate:
+    return Estimate(
+        share_in_order(pairs), pairs.decided, pairs.rocks, lambda w: share_in_order(pairs, w)
+    )
+
+
+def weighted_mean(values: NDArray[np.float64]) -> Estimate:
+    """Return the mean of the finite values, one value a rock."""
+    values = values[np.isfinite(values)]
+    if values.size == 0:
+        return Estimate(float("nan"), 0)
+
+    def mean(weights: NDArray[np.float64]) -> float:
+        return float(weights @ values / weights.sum())
+
+    return Estimate(float(values.mean()), int(values.size), int(values.size), mean)
+
+
+def _complete_rocks(blocks: Sequence[Block]) -> int:
+    return sum(block.complete().shape[1] for block in blocks)
+
+
+STATISTICS = (
+    Statistic(
+        "tau",
+        "order within a view against the truth (Kendall's τ_b)",
+        "1",
+        "pairs",
+        lambda blocks: _tau(within_views(blocks)),
+    ),
+    Statistic(
+        "pairs_across",
+        "pairs in the right order across views",
+        "share",
+        "pairs",
+        lambda blocks: _share(across_views(blocks)),
+    ),
+    Statistic(
+        "kendall_w",
+        "agreement of the views' rankings (Kendall's W)",
+        "1",
+        "rocks",
+        lambda blocks: Estimate(kendall_w(blocks), _complete_rocks(blocks)),
+    ),
+    Statistic(
+        "tau_views",
+        "agreement between two views (mean pairwise τ_b)",
+        "1",
+        "pairs",
+        lambda blocks: _tau(between_views(blocks)),
+    ),
+    Statistic(
+        "cv",
+        "coefficient of variation across views, mean over rocks",
+        "1",
+        "rocks",
+        lambda blocks: weighted_mean(coefficients_of_variation(blocks)),
+    ),
+    Statistic(
+        "cv_normalised",
+        "the same after dividing by each view's mean",
+        "1",
+        "rocks",
+        lambda blocks: weighted_mean(coefficients_of_variation(divide_by_view_means(blocks))),
+    ),
+    Statistic(
+        "icc_2_1",
+        "agreement of values: ICC(2,1) on logs",
+        "1",
+        "rocks",
+        lambda blocks: Estimate(intraclass_correlation(blocks).icc_2_1, _complete_rocks(blocks)),
+    ),
+    Statistic(
+        "icc_3_1",
+        "consistency of values: ICC(3,1) on logs",
+        "1",
+        "rocks",
+        lambda blocks: Estimate(intraclass_correlation(blocks).icc_3_1, _complete_rocks(blocks)),
+    ),
+)

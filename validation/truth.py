@@ -1,0 +1,121 @@
+"""The truth that a dataset carries: shape per rock, visibility per view, and label images."""
+
+from pathlib import Path
+from typing import TypeVar
+
+import cv2
+import msgspec
+import numpy as np
+import pandas as pd
+from msgspec import Struct
+from numpy.typing import NDArray
+
+from validation.errors import InputError
+
+
+class RockTruth(Struct, frozen=True, kw_only=True):
+    """What `scene_gt_shape.json` says of a rock; None where it has no truth."""
+
+    instance: int
+    obj_id: int
+    family: str
+    half_axes_box_m: tuple[float, float, float]
+    maximum_projection_sphericity: float
+    roundness: float | None
+    wadell_sphericity: float | None
+
+
+class RockView(Struct, frozen=True, kw_only=True):
+    """What `scene_gt_shape.json` says of a rock in one view."""
+
+    instance: int
+    visible_fraction: float
+    truncated: bool
+    pixel_m: float
+
+
+class SceneTruth(Struct, frozen=True, kw_only=True):
+    """A scene's rocks, and for each view (by its number) what can be seen of them."""
+
+    rocks: tuple[RockTruth, ...]
+    views: dict[str, tuple[RockView, ...]]
+
+
+_T = TypeVar("_T")
+
+
+def _decode(path: Path, kind: type[_T]) -> _T:
+    try:
+        return msgspec.json.decode(path.read_bytes(), type=kind)
+    except OSError as error:
+        raise InputError(f"{path}: expected a dataset's JSON, found {error.strerror}") from error
+    except (msgspec.ValidationError, msgspec.DecodeError) as error:
+        raise InputError(f"{path}: {error}") from error
+
+
+def read_scene_truth(path: Path) -> SceneTruth:
+    """Read a scene's `scene_gt_shape.json`.
+
+    Raises:
+        InputError: the file is missing or lacks a field.
+    """
+    return _decode(path, SceneTruth)
+
+
+def read_instances(path: Path) -> NDArray[np.int32]:
+    """Read a label image (rows, cols): 0 the background, else the instance's index + 1.
+
+    Raises:
+        InputError: the file is missing or no single-channel image.
+    """
+    image = cv2.imread(str(path), cv2.IMREAD_UNCHANGED) if path.is_file() else None
+    if image is None or image.ndim != 2:
+        found = "no image" if image is None else f"{image.shape}"
+        raise InputError(f"{path}: expected a label image (rows, cols), found {found}")
+    return image.astype(np.int32)
+
+
+def rock_columns(rock: RockTruth) -> dict[str, object]:
+    """Return a rock's truth as columns of the results; NaN where there is none."""
+    a, b, c = rock.half_axes_box_m
+    roundness = np.nan if rock.roundness is None else rock.roundness
+    wadell = np.nan if rock.wadell_sphericity is None else rock.wadell_sphericity
+    return {
+        "instance": rock.instance,
+        "obj_id": rock.obj_id,
+        "family": rock.family,
+        "truth_axis_a_m": a,
+        "truth_axis_b_m": b,
+        "truth_axis_c_m": c,
+        "truth_roundness": roundness,
+        "truth_angularity": 1.0 - roundness,
+        "truth_maximum_projection_sphericity": rock.maximum_projection_sphericity,
+        "truth_wadell_sphericity": wadell,
+    }
+
+
+def read_shape_truth(path: Path) -> pd.DataFrame:
+    """Read the `truth.csv` of a series of shapes: one row a shape, with the truth's columns.
+
+    Raises:
+        InputError: the file is missing or lacks a column.
+    """
+    try:
+        table = pd.read_csv(path)
+    except (OSError, ValueError) as error:
+        raise InputError(f"{path}: expected a series' truth.csv, found {error}") from error
+    missing = {"rock", "roundness", "axis_ratio", "rectangle_ratio"} - set(table.columns)
+    if missing:
+        raise InputError(
+            f"{path}: expected the column {min(missing)}, found {', '.join(table.columns)}"
+        )
+    return pd.DataFrame(
+        {
+            "instance": table["rock"] - 1,
+            "obj_id": table["rock"],
+            "truth_roundness": table["roundness"],
+            "truth_angularity": 1.0 - table["roundness"],
+            "truth_axis_ratio": table["axis_ratio"],
+            "truth_rectangle_ratio": table["rectangle_ratio"],
+        }
+    )

@@ -10,7 +10,8 @@ import msgspec
 from synth.errors import InputError
 from synth.generate import generate_dataset
 from synth.shapes import SERIES, write_series
-from synth.spec import PresetName, RendererName, SceneSpec, convert_spec, load_spec
+from synth.spec import RendererName, SceneSpec, convert_spec, load_spec
+from synth.spec.view import PresetName
 
 HELP = "make rocks of known shape: rendered scenes, or drawn shapes, with their truth"
 

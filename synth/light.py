@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from synth.mesh import Floats, Ints
 from synth.scene import Scene
-from synth.spec import SunSpec
+from synth.spec.view import SunSpec
 
 GROUND_ALBEDO = 0.55
 _EXPOSURE = 1.35  # brightness of a white level surface under the whole light

@@ -11,7 +11,8 @@ from synth.camera import PRESETS, Camera, Pose, ring
 from synth.errors import InputError
 from synth.mesh import Mesh
 from synth.rocks import Rock, quarry
-from synth.spec import CameraSpec, SceneSpec, ViewsSpec
+from synth.spec import SceneSpec
+from synth.spec.view import CameraSpec, ViewsSpec
 
 Floats = NDArray[np.float64]
 

@@ -11,7 +11,7 @@ from synth.rocks.perturbed import perturbed
 from synth.rocks.polyhedron import tangent_cuts
 from synth.rocks.record import Rock
 from synth.rocks.rounded import UnsettledError, rounded_box, rounded_polyhedron
-from synth.spec import RocksSpec
+from synth.spec.rocks import RocksSpec
 
 Floats = NDArray[np.float64]
 

@@ -12,7 +12,9 @@ from synth.mesh import Mesh
 from synth.render import open_renderer, render_view
 from synth.rocks.ellipsoid import ellipsoid
 from synth.scene import PlacedRock, Scene, build_scene
-from synth.spec import CameraSpec, RocksSpec, SceneSpec, SunSpec
+from synth.spec import SceneSpec
+from synth.spec.rocks import RocksSpec
+from synth.spec.view import CameraSpec, SunSpec
 
 BALL_RADIUS_M = 0.5
 BALL_CENTRE_M = np.array([0.1, -0.05, 0.5])

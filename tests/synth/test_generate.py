@@ -13,7 +13,9 @@ from synth.dataset import PARTIAL, depth_scale_mm, encode_depth
 from synth.errors import InputError
 from synth.generate import generate_dataset
 from synth.scene import build_scene
-from synth.spec import CameraSpec, RocksSpec, SceneSpec, ViewsSpec
+from synth.spec import SceneSpec
+from synth.spec.rocks import RocksSpec
+from synth.spec.view import CameraSpec, ViewsSpec
 
 SPEC = SceneSpec(
     seed=6,

@@ -9,7 +9,7 @@ from synth.rocks import FAMILIES, quarry
 from synth.rocks.ellipsoid import ellipsoid_mesh, unit_sphere
 from synth.rocks.perturbed import band_limited, perturbed, vertex_areas_m2
 from synth.rocks.quarry import graded
-from synth.spec import RocksSpec
+from synth.spec.rocks import RocksSpec
 
 
 def test_graded_rocks_differ_in_rounding_alone():

@@ -7,7 +7,9 @@ from synth.camera import project
 from synth.errors import InputError
 from synth.light import brightness, light_scene
 from synth.scene import build_scene
-from synth.spec import CameraSpec, RocksSpec, SceneSpec, SunSpec
+from synth.spec import SceneSpec
+from synth.spec.rocks import RocksSpec
+from synth.spec.view import CameraSpec, SunSpec
 
 
 @pytest.mark.parametrize("preset", ["imp", "msl-navcam"])

@@ -1,0 +1,58 @@
+"""The description of a dataset: every knob with unit, limits and default; read from TOML."""
+
+import tomllib
+from pathlib import Path
+from typing import Annotated, Literal
+
+import msgspec
+from msgspec import Meta, Struct
+
+from synth.errors import InputError
+from synth.spec.rocks import RocksSpec
+from synth.spec.sensor import NoiseSpec
+from synth.spec.view import CameraSpec, SunSpec, ViewsSpec
+
+RendererName = Literal["auto", "osmesa", "egl", "embree"]
+Seed = Annotated[int, Meta(ge=0, le=2**63 - 1)]
+
+
+class SceneSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """A whole dataset. Scene i is a function of the spec and i alone."""
+
+    seed: Seed = 0
+    scenes: Annotated[int, Meta(ge=1, le=9999)] = 1
+    renderer: RendererName = "auto"
+    rocks: RocksSpec = RocksSpec()
+    camera: CameraSpec = CameraSpec()
+    views: ViewsSpec = ViewsSpec()
+    sun: SunSpec = SunSpec()
+    noise: NoiseSpec = NoiseSpec()
+
+
+def load_spec(path: Path) -> SceneSpec:
+    """Read a spec from a TOML file; what the file leaves out keeps its default.
+
+    Raises:
+        InputError: the file is missing, is no TOML, or holds a key or value that is not allowed.
+    """
+    try:
+        table = tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"{path}: expected a TOML file, found {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: expected a TOML file, found bytes that are no text") from error
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"{path}: expected TOML, found {error}") from error
+    return convert_spec(table, where=str(path))
+
+
+def convert_spec(table: object, *, where: str) -> SceneSpec:
+    """Turn plain tables into a checked spec; `where` begins the complaint.
+
+    Raises:
+        InputError: a key or value that is not allowed; the message names it.
+    """
+    try:
+        return msgspec.convert(table, SceneSpec)
+    except msgspec.ValidationError as error:
+        raise InputError(f"{where}: {error}") from error

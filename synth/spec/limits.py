@@ -1,0 +1,20 @@
+"""The limits that numbers of a spec keep."""
+
+from typing import Annotated
+
+from msgspec import Meta
+
+Positive = Annotated[float, Meta(gt=0, le=1000)]
+Degrees = Annotated[float, Meta(ge=-360, le=360)]
+Fraction = Annotated[float, Meta(ge=0, le=1)]
+Ratio = Annotated[float, Meta(gt=0, le=1)]
+PositiveRange = tuple[Positive, Positive]
+RatioRange = tuple[Ratio, Ratio]
+Count = Annotated[int, Meta(ge=1, le=500)]
+
+
+def check_range(name: str, limits: tuple[float, float]) -> None:
+    """Raise ValueError unless limits are in rising order."""
+    low, high = limits
+    if not low <= high:
+        raise ValueError(f"{name}: expected [low, high] with low <= high, found [{low}, {high}]")

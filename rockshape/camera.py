@@ -28,9 +28,9 @@ class Camera:
     depth_scale: float | None = None  # mm for one unit of a 16-bit depth image, as in BOP
 
     def __post_init__(self) -> None:
-        for name in ("fx", "fy", "width", "height"):
+        for name in ("fx", "fy", "width", "height", "depth_scale"):
             value = getattr(self, name)
-            if not (np.isfinite(value) and value > 0):
+            if value is not None and not (np.isfinite(value) and value > 0):
                 raise InputError(f"camera: {name}: expected a positive number, found {value}")
 
     @property

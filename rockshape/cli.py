@@ -8,7 +8,7 @@ A sub-command is a module with
 
 Only the module of the command that was asked for is imported. An exception that carries an
 integer `exit_status` is the user's mistake or the machine's lack: it is printed as one line.
-Any other exception is a defect and keeps its traceback.
+So is a file that the system refuses. Any other exception is a defect and keeps its traceback.
 """
 
 import argparse
@@ -66,6 +66,12 @@ def main(argv: Sequence[str] | None = None) -> int:
     args = _build_parser(argv).parse_args(argv)
     try:
         return int(args.run(args))
+    except BrokenPipeError:
+        sys.stdout = None  # whoever read the output has gone, nothing is left to flush
+        return 0
+    except OSError as error:
+        print(f"rockshape: {error.filename or 'output'}: {error.strerror}", file=sys.stderr)
+        return 2
     except Exception as error:
         status = getattr(error, "exit_status", None)
         if not isinstance(status, int):

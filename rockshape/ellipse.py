@@ -6,6 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 FEWEST_POINTS = 6  # one more than an ellipse has unknowns
+LARGEST = 10.0  # semi-axis in RMS radii of the outline: two parallel lines ask for infinity
+FLATTEST = 1e-3  # axis ratio below which the conic is a pair of lines
 
 # 4ac - b² of the conic a x² + b xy + c y² + ...: positive for an ellipse
 _CONSTRAINT = np.array([[0.0, 0.0, 2.0], [0.0, -1.0, 0.0], [2.0, 0.0, 0.0]])
@@ -31,7 +33,7 @@ class Ellipse:
 
         With p the vector from the centre and q = (p_u/a)² + (p_v/b)² in the ellipse's own axes, the
         ray meets the ellipse at p/sqrt(q), so the distance is |p| (1 - 1/sqrt(q)). It exceeds the
-        orthogonal distance by up to (a² + b²)/(2ab). A point at the centre lies -b away.
+        orthogonal distance by a factor of up to (a² + b²)/(2ab). The centre itself lies -b away.
         Source: Fox et al. (2002), figure 2.
         """
         offset = points - (self.x, self.y)
@@ -51,8 +53,9 @@ def fit_ellipse(points: NDArray[np.float64]) -> Ellipse | None:
     points is (n, 2) as (x, y). Centred and scaled first, since the system is badly conditioned far
     from the origin, and solved as the reduced 3x3 eigenproblem whose only solution with
     4ac - b² > 0 is the ellipse; "the one positive eigenvalue" of the full system fails on points
-    that lie exactly on an ellipse. None for fewer than six points, or where no ellipse fits, as for
-    points on a line.
+    that lie exactly on an ellipse. None for fewer than six points, or where no ellipse is
+    determined: points on a line, on two parallel lines, or on an arc so flat that the semi-axis
+    exceeds ten times the RMS distance of the points from their centroid.
     Source: Fox et al. (2002), equations 3 to 5, after Fitzgibbon, Pilu and Fisher (1999); solved
     after Halíř and Flusser (1998).
     """
@@ -84,11 +87,12 @@ def _from_conic(
 ) -> Ellipse | None:
     a, b, c, d, e, f = conic
     shape = np.array([[a, b / 2], [b / 2, c]])
-    middle = np.linalg.solve(shape, [-d / 2, -e / 2])
-    level = middle @ shape @ middle - f
     values, axes = np.linalg.eigh(shape)
-    squares = level / values
-    if not np.all(np.isfinite(squares)) or np.any(squares <= 0):
+    if np.abs(values).min() <= FLATTEST**2 * np.abs(values).max():
+        return None
+    middle = np.linalg.solve(shape, [-d / 2, -e / 2])
+    squares = (middle @ shape @ middle - f) / values
+    if np.any(squares <= 0) or np.any(squares > LARGEST**2):
         return None
     longest = int(np.argmax(squares))
     direction = axes[:, longest]

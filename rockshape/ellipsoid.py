@@ -14,6 +14,8 @@ MOST_STEPS = 500
 SETTLED = 1e-10  # relative fall of the sum of squares at which a descent has converged
 LEAST_DAMPING, MOST_DAMPING = 1e-12, 1e12
 TINY = 1e-24
+PROBE = 1e-5  # of the cloud's size: the step of differences between gradients
+CREEPING = 1e-3  # relative fall of the sum of squares below which J^T J alone is too slow
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +65,7 @@ def fit_ellipsoid(points_m: NDArray[np.float64]) -> EllipsoidFit | None:
     visible surface compete on a sketch of 400 points, and the lowest descends on all; the paper
     descends the same D_S by Powell's method. A half-axis stays between 0.02 and 3 times the
     cloud's radius: a view of one side may not determine the rest, and a flat face would send an
-    axis to infinity. `bounded` says so.
+    axis to infinity. `bounded` says so, and such axes are the bound's and not the rock's.
 
     None for fewer than 30 points, or where they have no extent in two directions.
     Source: Fox et al. (2002), equations 8 and 11; the axes are sorted after the fit.
@@ -77,7 +79,9 @@ def fit_ellipsoid(points_m: NDArray[np.float64]) -> EllipsoidFit | None:
     size = float(np.linalg.norm(points_m - centroid, axis=1).max())
     points = (points_m - centroid) / size
     bounds = (np.log(SMALLEST), np.log(LARGEST))
-    sketch = points[:: -(-len(points) // SKETCH)]
+    # every k-th of a fixed shuffle: every k-th in order would pick columns of the image
+    order = np.random.default_rng(0).permutation(len(points))
+    sketch = points[order[:SKETCH]]
     starts = _starts(spread / size**2, directions, centroid / np.linalg.norm(centroid))
     nearest, *_ = min((_descend(sketch, start, bounds) for start in starts), key=lambda run: run[1])
     state, cost, converged = _descend(points, nearest, bounds)
@@ -151,19 +155,22 @@ def _descend(
     """Levenberg-Marquardt from one start, the log half-axes kept within bounds.
 
     Returns the state reached, its sum of squares and whether the descent converged. The damping
-    follows Nielsen (1999): it falls by how well the last step was foreseen.
+    follows Nielsen (1999): it falls by how well the last step was foreseen. On a rock that is no
+    ellipsoid the residuals stay large and the Gauss-Newton matrix J^T J creeps, so that the whole
+    Hessian takes over once a step gains less than a thousandth.
     """
     residual = _residuals(state, points)
     cost = float(residual @ residual)
     damping, growth = 1e-3, 2.0
+    creeping = False
     for _ in range(MOST_STEPS):
         jacobian = _jacobian(state, points)
         normal, gradient = jacobian.T @ jacobian, jacobian.T @ residual
         free = _free(state, gradient, bounds)
+        system = _hessian(state, points) if creeping else normal
+        system, scale = system[np.ix_(free, free)], np.diag(normal)[free] + TINY
         while True:
             step = np.zeros(9)
-            system = normal[np.ix_(free, free)]
-            scale = np.diag(system) + TINY
             step[free] = -np.linalg.solve(system + np.diag(damping * scale), gradient[free])
             trial = _move(state, step, bounds)
             trial_residual = _residuals(trial, points)
@@ -174,14 +181,29 @@ def _descend(
             if damping > MOST_DAMPING:
                 return state, cost, True
         foreseen = float(step[free] @ (damping * scale * step[free] - gradient[free]))
-        gain = (cost - trial_cost) / foreseen
+        gain = (cost - trial_cost) / max(foreseen, TINY)
         damping = max(damping * max(1 / 3, 1 - (2 * gain - 1) ** 3), LEAST_DAMPING)
         growth = 2.0
-        settled = cost - trial_cost <= SETTLED * trial_cost + TINY * len(points)
+        fall = cost - trial_cost
         state, residual, cost = trial, trial_residual, trial_cost
-        if settled:
+        if fall <= SETTLED * cost + TINY * len(points):
             return state, cost, True
+        creeping = fall <= CREEPING * cost
     return state, cost, False
+
+
+def _hessian(state: _State, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Half the Hessian (9, 9) of the sum of squares, by central differences of the gradient.
+
+    Directions of negative curvature are turned round, so that every step leads downhill.
+    """
+    sides = []
+    for nudge in PROBE * np.eye(9):
+        ends = [_move(state, sign * nudge, (-np.inf, np.inf)) for sign in (1, -1)]
+        up, down = (_jacobian(end, points).T @ _residuals(end, points) for end in ends)
+        sides.append((up - down) / (2 * PROBE))
+    values, vectors = np.linalg.eigh((np.array(sides) + np.array(sides).T) / 2)
+    return np.asarray((vectors * np.abs(values)) @ vectors.T)
 
 
 def _free(

@@ -7,8 +7,9 @@ from numpy.typing import NDArray
 
 from rockshape.camera import Camera
 from rockshape.errors import InputError
-from rockshape.resection import Resection, resect
+from rockshape.resection import Resection, calibrate, resect
 
+SURE_RESIDUAL_PX = 0.5  # a camera at the origin that explains the grid this well is the one
 WORST_RESIDUAL_PX = 3.0  # a grid that no camera explains better than this is not one camera's
 
 
@@ -17,8 +18,9 @@ class Observation:
     """One image, and its range in the camera frame.
 
     points_m is (rows, cols, 3), NaN where nothing was measured, or None without range. With a
-    camera the points are taken to be in its frame. Without one the camera is resected from the
-    grid, and `points_m` is moved to the camera found; `resection` tells it and its residual.
+    camera the points are taken to be in its frame. Without one, points that a camera at their
+    origin explains are left as they are; else the camera is resected from the grid, and `points_m`
+    is moved to the camera found. `resection` tells it and its residual.
     Raises InputError where the shapes do not fit each other.
     """
 
@@ -40,7 +42,9 @@ class Observation:
         if self.points_m.shape != expected:
             raise InputError(f"points_m: expected {expected}, found {self.points_m.shape}")
         if self.camera is None:
-            resection = resect(self.points_m)
+            resection = calibrate(self.points_m)
+            if resection is None or resection.residual_px > SURE_RESIDUAL_PX:
+                resection = resect(self.points_m)
             if resection is not None and resection.residual_px <= WORST_RESIDUAL_PX:
                 object.__setattr__(self, "resection", resection)
                 object.__setattr__(self, "camera", resection.camera)

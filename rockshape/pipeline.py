@@ -55,8 +55,9 @@ def measure(
 ) -> Measurement:
     """Find the rocks in an observation and measure each.
 
-    With labels, (rows, cols) of whole numbers with 0 the ground, nothing is segmented. Without
-    labels and without range there is nothing to find rocks by: no rock is returned.
+    With labels, (rows, cols) of whole numbers with 0 the ground, nothing is segmented; of a number
+    in several pieces the largest is measured. Without labels and without range there is nothing to
+    find rocks by: no rock is returned.
     Raises InputError for an unknown method or labels of another shape.
     """
     if method not in METHODS:
@@ -74,7 +75,7 @@ def measure(
             labels = segment(height_m, sigma_m=ground.sigma_m)
             frame = measured_frame(np.isfinite(height_m))
     scene = _Scene(labels=labels, points_m=points_m, frame=frame, measures=METHODS[method])
-    rocks = tuple(_measure_rock(scene, number, window) for number, window in _windows(labels))
+    rocks = tuple(_measure_rock(scene, patch) for patch in _patches(labels))
     return Measurement(method=method, labels=labels, ground=ground, rocks=rocks)
 
 
@@ -88,29 +89,54 @@ class _Scene:
     measures: tuple[Measure, ...]
 
 
-def _windows(labels: NDArray[np.int32]) -> list[tuple[int, tuple[slice, slice]]]:
-    """Each number in the label image and the box its pixels lie in; numbers may have gaps."""
+@dataclass(frozen=True, eq=False)
+class _Patch:
+    """A rock's pixels: the largest part that hangs together."""
+
+    number: int
+    window: tuple[slice, slice]  # the box they lie in
+    mask: NDArray[np.bool_]  # within the box
+
+
+def _patches(labels: NDArray[np.int32]) -> list[_Patch]:
+    """The pixels of each number in the label image, in the order of the numbers."""
     rocks = labels != 0
     numbers = np.unique(labels[rocks])
     dense = np.zeros(labels.shape, dtype=np.int32)
     dense[rocks] = np.searchsorted(numbers, labels[rocks]) + 1
-    return list(zip(numbers.tolist(), ndi.find_objects(dense), strict=True))
+    return [
+        _largest_part(int(number), window, labels[window] == number)
+        for number, window in zip(numbers, ndi.find_objects(dense), strict=True)
+    ]
 
 
-def _measure_rock(scene: _Scene, number: int, window: tuple[slice, slice]) -> Rock:
-    rows, cols = window
-    view = _view_rock(scene, number, window)
+def _largest_part(number: int, window: tuple[slice, slice], mask: NDArray[np.bool_]) -> _Patch:
+    parts, count = ndi.label(mask, structure=np.ones((3, 3)))
+    if count == 1:
+        return _Patch(number, window, mask)
+    largest = int(np.argmax(np.bincount(parts.ravel())[1:])) + 1
+    rows, cols = ndi.find_objects(parts)[largest - 1]
+    inner = tuple(
+        slice(whole.start + part.start, whole.start + part.stop)
+        for whole, part in zip(window, (rows, cols), strict=True)
+    )
+    return _Patch(number, (inner[0], inner[1]), parts[rows, cols] == largest)
+
+
+def _measure_rock(scene: _Scene, patch: _Patch) -> Rock:
+    rows, cols = patch.window
+    view = _view_rock(scene, patch)
     values = {measure.column: measure.evaluate(view) for measure in scene.measures}
-    pixel_rows, pixel_cols = np.nonzero(scene.labels[window] == number)
+    pixel_rows, pixel_cols = np.nonzero(patch.mask)
     return Rock(
-        number=number,
+        number=patch.number,
         row=rows.start + float(pixel_rows.mean()),
         col=cols.start + float(pixel_cols.mean()),
         area_px=len(pixel_rows),
         width_px=cols.stop - cols.start,
         height_px=rows.stop - rows.start,
-        truncated=touches_border(window, scene.frame),
-        visible_fraction=visible_fraction(number, view.ellipse, scene.labels, scene.points_m),
+        truncated=touches_border(patch.window, scene.frame),
+        visible_fraction=visible_fraction(patch.number, view.ellipse, scene.labels, scene.points_m),
         outline_px=view.outline_px,
         ellipse=view.ellipse,
         ellipsoid=None if view.ellipsoid is None else view.ellipsoid.ellipsoid,
@@ -119,21 +145,24 @@ def _measure_rock(scene: _Scene, number: int, window: tuple[slice, slice]) -> Ro
     )
 
 
-def _view_rock(scene: _Scene, number: int, window: tuple[slice, slice]) -> RockView:
-    """Outline, points and fits of one rock."""
-    rows, cols = window
-    mask = scene.labels[window] == number
-    outline = trace_outline(mask) + np.array([cols.start, rows.start])
+def _view_rock(scene: _Scene, patch: _Patch) -> RockView:
+    """Outline, points and those fits of one rock that its pixels and points determine."""
+    rows, cols = patch.window
+    outline = trace_outline(patch.mask) + np.array([cols.start, rows.start])
     points = np.empty((0, 3))
     if scene.points_m is not None:
-        points = scene.points_m[window][mask]
+        points = scene.points_m[patch.window][patch.mask]
         points = points[np.isfinite(points).all(axis=1)]
+    graph = view_patch(points)
+    ellipsoid = fit_ellipsoid(points)
+    if ellipsoid is not None and (ellipsoid.bounded or not ellipsoid.converged):
+        ellipsoid = None
     return RockView(
         outline_px=outline,
         points_m=points,
         ellipse=fit_ellipse(outline),
-        ellipsoid=fit_ellipsoid(points),
-        surface=fit_surface(view_patch(points)) if len(points) else None,
+        ellipsoid=ellipsoid,
+        surface=None if graph is None else fit_surface(graph),
     )
 
 

@@ -38,6 +38,32 @@ class Resection:
         return points_m @ self.rotation.T + self.translation_m
 
 
+def calibrate(points_m: NDArray[np.float64]) -> Resection | None:
+    """Find the camera at the origin, looking along z, that saw points_m, (rows, cols, 3).
+
+    The lines u = fx X/Z + cx and v = fy Y/Z + cy through all pixels, by least squares; the
+    principal point is free. None where fewer than 12 pixels have a point, or no such camera can
+    have seen them.
+    """
+    rows, cols = points_m.shape[:2]
+    row, col, points = _sample(points_m)
+    if len(row) < FEWEST or np.any(points[:, 2] <= 0):
+        return None
+    across, down = (points[:, :2] / points[:, 2:]).T
+    if np.ptp(across) == 0 or np.ptp(down) == 0:
+        return None
+    (fx, cx), (fy, cy) = np.polyfit(across, col, 1), np.polyfit(down, row, 1)
+    if fx <= 0 or fy <= 0:
+        return None
+    misses = np.hypot(fx * across + cx - col, fy * down + cy - row)
+    return Resection(
+        camera=Camera(float(fx), float(fy), float(cx), float(cy), cols, rows),
+        rotation=np.eye(3),
+        translation_m=np.zeros(3),
+        residual_px=float(np.median(misses)),
+    )
+
+
 def resect(points_m: NDArray[np.float64]) -> Resection | None:
     """Find the camera that saw points_m, (rows, cols, 3), at its own grid of pixels.
 
@@ -46,13 +72,10 @@ def resect(points_m: NDArray[np.float64]) -> Resection | None:
     None where fewer than 12 pixels have a point or no camera explains the grid.
     """
     rows, cols = points_m.shape[:2]
-    row, col = np.nonzero(np.isfinite(points_m).all(axis=-1))
+    row, col, points = _sample(points_m)
     if len(row) < FEWEST:
         return None
-    every = max(1, len(row) // SAMPLE)
-    row, col = row[::every], col[::every]
     pixels = np.column_stack([col, row]).astype(np.float64)
-    points = points_m[row, col]
     middle = np.array([(cols - 1) / 2, (rows - 1) / 2])
 
     start = _direct_linear(pixels - middle, points)
@@ -77,6 +100,16 @@ def resect(points_m: NDArray[np.float64]) -> Resection | None:
         translation_m=fit.x[3:6],
         residual_px=float(np.median(misses)),
     )
+
+
+def _sample(
+    points_m: NDArray[np.float64],
+) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
+    """Rows, columns and points of pixels spread over those that have a point."""
+    row, col = np.nonzero(np.isfinite(points_m).all(axis=-1))
+    every = max(1, len(row) // SAMPLE)
+    row, col = row[::every], col[::every]
+    return row, col, points_m[row, col]
 
 
 def _pose(parameters: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:

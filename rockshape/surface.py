@@ -22,14 +22,20 @@ class Patch:
     height_m: NDArray[np.float64]  # (n,), towards the camera
 
 
-def view_patch(points_m: NDArray[np.float64]) -> Patch:
+def view_patch(points_m: NDArray[np.float64]) -> Patch | None:
     """Lay the points, (n, 3) in the camera frame, over the plane that faces the camera.
 
     The height is measured along the ray to the points' centroid, so that the visible surface is a
-    graph; u follows the image's x axis and w its y axis, both in metres.
+    graph; u follows the image's x axis and w its y axis, both in metres. None for no points, and
+    for points that lie round the camera itself or right beside it, which no image shows.
     """
+    if len(points_m) == 0:
+        return None
     centroid = points_m.mean(axis=0)
-    away = centroid / np.linalg.norm(centroid)
+    distance = np.linalg.norm(centroid)
+    if not abs(centroid[0]) < distance:
+        return None
+    away = centroid / distance
     across = np.array([1.0, 0.0, 0.0]) - away[0] * away
     across /= np.linalg.norm(across)
     down = np.cross(away, across)

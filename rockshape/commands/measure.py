@@ -6,20 +6,23 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rockshape.draw import overlay
 from rockshape.errors import InputError
 from rockshape.io import read_camera, read_image, read_labels, read_range, write_image
-from rockshape.io.files import check_writable
+from rockshape.io.coco import read_coco
+from rockshape.io.files import check_writable, write_bytes
 from rockshape.io.images import LABEL_IMAGES, PICTURES
 from rockshape.io.tables import TABLES, write_table
 from rockshape.measures import METHODS
 from rockshape.observation import Observation
 from rockshape.pipeline import Measurement, measure
+from rockshape.report import render_page
 from rockshape.table import to_frame
 
 HELP = "find the rocks in an image and tell the shape of each"
-LARGEST_LABEL = 2**16 - 1
+MOST_16_BITS = 2**16 - 1
 
 
 @dataclass(frozen=True)
@@ -29,13 +32,26 @@ class Outputs:
     table: Path | None
     labels: Path | None
     overlay: Path | None
+    report: Path | None
 
-    def check(self) -> None:
-        """Raises InputError, before any work is done, for a file that cannot be written."""
+    def check(self, inputs: list[Path]) -> None:
+        """Raises InputError, before any work is done, for a file that cannot be written.
+
+        Nor may an output be an input or another output.
+        """
+        outputs = [self.table, self.labels, self.overlay, self.report]
+        taken = [path.resolve() for path in inputs]
+        for path in outputs:
+            if path is None:
+                continue
+            if path.resolve() in taken:
+                raise InputError(f"{path}: expected a file of its own, found one named before")
+            taken.append(path.resolve())
         for path, endings in (
             (self.table, TABLES),
             (self.labels, LABEL_IMAGES),
             (self.overlay, PICTURES),
+            (self.report, (".html", ".htm")),
         ):
             if path is not None:
                 check_writable(path, endings=endings)
@@ -49,14 +65,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=Path,
         metavar="FILE",
         help="points or z-depth of each pixel, metres: .npy, .npz (xyz or depth), float TIFF, "
-        "16-bit PNG",
+        "16-bit PNG, PLY with a vertex a pixel",
     )
     parser.add_argument("--camera", type=Path, metavar="FILE", help="JSON with fx, fy, cx, cy, ...")
     parser.add_argument(
         "--labels",
         type=Path,
         metavar="FILE",
-        help="rocks found already: whole numbers, 0 ground",
+        help="rocks found already: whole numbers, 0 ground; or COCO",
     )
     parser.add_argument("--method", choices=METHODS, default="paper", help="which measures")
     parser.add_argument(
@@ -69,44 +85,57 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="labels used: 16-bit PNG, TIFF",
     )
     parser.add_argument("--overlay", type=Path, metavar="FILE", help="picture: PNG, JPEG, TIFF")
+    parser.add_argument("--report", type=Path, metavar="FILE", help="page with picture and table")
 
 
 def run(args: argparse.Namespace) -> int:
     """Measure one image and write what was asked for."""
-    outputs = Outputs(table=args.out, labels=args.labels_out, overlay=args.overlay)
-    outputs.check()
+    outputs = Outputs(
+        table=args.out, labels=args.labels_out, overlay=args.overlay, report=args.report
+    )
+    inputs = [args.image, args.range, args.camera, args.labels]
+    outputs.check([path for path in inputs if path is not None])
     image = read_image(args.image)
     camera = None if args.camera is None else read_camera(args.camera)
     points_m = None
     if args.range is not None:
         points_m = read_range(args.range, shape=image.shape, camera=camera)
-    labels = None if args.labels is None else read_labels(args.labels, shape=image.shape)
+    labels = None if args.labels is None else _read_labels(args.labels, args.image, image.shape)
+    if outputs.labels is not None and labels is not None and labels.max() > MOST_16_BITS:
+        raise InputError(
+            f"{args.labels}: expected numbers up to {MOST_16_BITS} for --labels-out, "
+            f"found {labels.max()}"
+        )
     if points_m is None and labels is None:
         raise InputError(
             "measure: expected --range or --labels to find the rocks by, found neither"
         )
     observation = Observation(image=image, points_m=points_m, camera=camera)
     measurement = measure(observation, method=args.method, labels=labels)
-    _write(outputs, observation, measurement)
+    _write(outputs, args.image.name, observation, measurement)
     print(_summary(observation, measurement), file=sys.stderr)
     return 0
 
 
-def _write(outputs: Outputs, observation: Observation, measurement: Measurement) -> None:
+def _read_labels(path: Path, image: Path, shape: tuple[int, ...]) -> NDArray[np.int32]:
+    if path.suffix.lower() == ".json":
+        return read_coco(path, image_name=image.name, shape=shape)
+    return read_labels(path, shape=shape)
+
+
+def _write(outputs: Outputs, name: str, observation: Observation, measurement: Measurement) -> None:
     frame = to_frame(measurement)
     if outputs.table is None:
         print(frame.to_csv(index=False, float_format="%.9g"), end="")
     else:
         write_table(outputs.table, frame)
     if outputs.labels is not None:
-        if measurement.labels.max(initial=0) > LARGEST_LABEL:
-            raise InputError(
-                f"{outputs.labels}: expected numbers up to {LARGEST_LABEL}, "
-                f"found {measurement.labels.max()}"
-            )
         write_image(outputs.labels, measurement.labels.astype(np.uint16))
     if outputs.overlay is not None:
         write_image(outputs.overlay, overlay(observation.image, measurement))
+    if outputs.report is not None:
+        page = render_page(name, observation.image, measurement)
+        write_bytes(outputs.report, page.encode())
 
 
 def _summary(observation: Observation, measurement: Measurement) -> str:

@@ -9,12 +9,12 @@ from rockshape.errors import InputError
 
 def read_bytes(path: Path, *, what: str) -> bytes:
     """Everything in a file. Raises InputError where it is missing, a folder, empty or locked."""
-    if path.is_dir():
-        raise InputError(f"{path}: expected {what}, found a directory")
     try:
         data = path.read_bytes()
     except FileNotFoundError:
         raise InputError(f"{path}: expected {what}, found no such file") from None
+    except IsADirectoryError:
+        raise InputError(f"{path}: expected {what}, found a directory") from None
     except OSError as error:
         raise InputError(f"{path}: expected {what}, found {error.strerror}") from None
     if not data:

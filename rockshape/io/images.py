@@ -18,6 +18,7 @@ LABELS = "a label image (PNG or TIFF of whole numbers, 0 the background)"
 PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
 LABEL_IMAGES = (".png", ".tif", ".tiff")  # those that hold 16 bits and lose nothing
 LARGEST_LABEL = 2**31 - 1
+WHITE_IS_ZERO, PALETTE, SEPARATE_PLANES = 0, 3, 2  # values of TIFF's tags
 
 
 def read_image(path: Path | str) -> NDArray[np.float32]:
@@ -84,10 +85,15 @@ def decode(path: Path, *, what: str) -> NDArray[np.generic]:
 
 def _first_page(data: bytes) -> NDArray[np.generic]:
     with tifffile.TiffFile(io.BytesIO(data)) as file:
-        page = file.pages[0]
-        if page.compression not in (1, 8, 32946, 32773):  # what tifffile unpacks by itself
+        if len(file.series) > 1 or len(file.series[0].pages) > 1:
+            raise ValueError(f"{len(file.pages)} pages")
+        page = file.pages.first
+        packed = page.compression not in (1, 8, 32946, 32773)  # what tifffile unpacks by itself
+        if packed or page.photometric in (PALETTE, WHITE_IS_ZERO):
             return _picture(data)
-        return np.asarray(page.asarray())
+        pixels = np.asarray(page.asarray())
+    planes = pixels.ndim == 3 and page.planarconfig == SEPARATE_PLANES
+    return np.moveaxis(pixels, 0, -1) if planes else pixels
 
 
 def _picture(data: bytes) -> NDArray[np.generic]:

@@ -1,18 +1,18 @@
 """Range files: z-depth or points for each pixel of the image."""
 
 import io
-import zipfile
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from trimesh.exchange.ply import load_ply
 
 from rockshape.camera import Camera
 from rockshape.errors import InputError
 from rockshape.io.files import read_bytes
 from rockshape.io.images import decode
 
-RANGE = "range (.npy, .npz with xyz or depth, float TIFF, or 16-bit PNG)"
+RANGE = "range (.npy, .npz with xyz or depth, float TIFF, 16-bit PNG, PLY)"
 KEYS = ("xyz", "depth")
 
 
@@ -27,7 +27,7 @@ def read_range(
     Raises InputError where the file is no such range or of another shape.
     """
     path = Path(path)
-    values = _read_array(path)
+    values = _read_array(path, shape)
     if values.dtype.kind not in "fiu":
         raise InputError(f"{path}: expected {RANGE}, found {values.dtype}")
     rows, cols = shape[:2]
@@ -57,12 +57,19 @@ def _unproject(
     return camera.unproject(depth_m)
 
 
-def _read_array(path: Path) -> NDArray[np.generic]:
+def _read_array(path: Path, shape: tuple[int, ...]) -> NDArray[np.generic]:
     suffix = path.suffix.lower()
     if suffix in (".npy", ".npz"):
         return _read_numpy(path)
+    if suffix == ".ply":
+        return _read_ply(path, shape)
     if suffix in (".tif", ".tiff", ".png"):
-        return decode(path, what=RANGE)
+        values = decode(path, what=RANGE)
+        if suffix == ".png" and (values.dtype != np.uint16 or values.ndim != 2):
+            raise InputError(
+                f"{path}: expected a grey PNG of 16 bits, found {values.dtype} {values.shape}"
+            )
+        return values
     read_bytes(path, what=RANGE)
     raise InputError(f"{path}: expected {RANGE}, found a name ending in {suffix or 'nothing'}")
 
@@ -70,17 +77,39 @@ def _read_array(path: Path) -> NDArray[np.generic]:
 def _read_numpy(path: Path) -> NDArray[np.generic]:
     data = read_bytes(path, what=RANGE)
     try:
-        loaded = np.load(io.BytesIO(data), allow_pickle=False)
-        if not isinstance(loaded, np.lib.npyio.NpzFile):
-            return np.asarray(loaded)
-        with loaded:
-            key = next((key for key in KEYS if key in loaded.files), None)
-            if key is None:
-                found = ", ".join(loaded.files) or "nothing"
-                raise InputError(f"{path}: expected the key xyz or depth, found {found}")
-            return np.asarray(loaded[key])
-    except (ValueError, OSError, EOFError, KeyError, zipfile.BadZipFile) as error:
-        if isinstance(error, InputError):
-            raise
+        arrays = _load(data)
+    except Exception as error:  # the many ways in which a spoilt file fails to load
         found = "pickled objects, which are never loaded" if "pickle" in str(error) else str(error)
         raise InputError(f"{path}: expected {RANGE}, found {found}") from None
+    key = next((key for key in KEYS if key in arrays), None)
+    if key is None:
+        found = ", ".join(arrays) or "nothing"
+        raise InputError(f"{path}: expected the key xyz or depth, found {found}")
+    return arrays[key]
+
+
+def _read_ply(path: Path, shape: tuple[int, ...]) -> NDArray[np.generic]:
+    """Vertices of a PLY, one a pixel, in the image's reading order."""
+    data = read_bytes(path, what=RANGE)
+    try:
+        vertices = np.asarray(load_ply(io.BytesIO(data), fix_texture=False)["vertices"])
+    except Exception as error:
+        raise InputError(f"{path}: expected {RANGE}, found {error or 'no PLY'}") from None
+    rows, cols = shape[:2]
+    if vertices.shape != (rows * cols, 3):
+        raise InputError(
+            f"{path}: expected a vertex for each of {rows} x {cols} pixels, found {len(vertices)}"
+        )
+    return vertices.reshape(rows, cols, 3)
+
+
+def _load(data: bytes) -> dict[str, NDArray[np.generic]]:
+    """The arrays of an .npz, or that of an .npy under the first key; arrays of other keys are
+    named but not read.
+    """
+    loaded = np.load(io.BytesIO(data), allow_pickle=False)
+    if not isinstance(loaded, np.lib.npyio.NpzFile):
+        return {KEYS[0]: np.asarray(loaded)}
+    with loaded:
+        nothing = np.empty(0)
+        return {key: loaded[key] if key in KEYS else nothing for key in loaded.files}

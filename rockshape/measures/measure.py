@@ -17,9 +17,9 @@ class RockView:
 
     outline_px: NDArray[np.float64]  # (n, 2) as (x, y), clockwise
     points_m: NDArray[np.float64]  # (k, 3) in the camera frame, empty without range
-    ellipse: Ellipse | None
-    ellipsoid: EllipsoidFit | None
-    surface: Surface | None
+    ellipse: Ellipse | None  # None where the outline does not determine it
+    ellipsoid: EllipsoidFit | None  # None where the points do not
+    surface: Surface | None  # likewise
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ import cv2
 import numpy as np
 import pandas as pd
 import pytest
+import tifffile
 
 from rockshape.cli import main
 from rockshape.io import read_image, read_labels
@@ -28,6 +29,79 @@ def test_the_readme_command_writes_table_labels_and_picture(tmp_path: Path) -> N
     assert written.dtype == np.uint16
     assert np.unique(written)[1:].tolist() == frame["rock"].tolist()
     assert cv2.imread(str(picture)).shape == (992, 1024, 3)
+
+
+def coco(folder: Path, annotations: list[dict]) -> Path:
+    path = folder / "rocks.json"
+    images = [{"id": 7, "width": 256, "height": 248, "file_name": f"gray/{MARS_IMAGE.name}"}]
+    other = {"id": 8, "width": 9, "height": 9, "file_name": "other.png"}
+    path.write_text(json.dumps({"images": [*images, other], "annotations": annotations}))
+    return path
+
+
+def test_coco_polygons_and_run_lengths_are_labels(tmp_path: Path) -> None:
+    # corners at pixel corners: columns 10 to 29, rows 20 to 59
+    polygon = [[10, 20, 30, 20, 30, 60, 10, 60]]
+    mask = np.zeros((248, 256), dtype=bool)
+    mask[100:140, 50:90] = True
+    flat = np.concatenate([[False], mask.ravel(order="F"), [False]])
+    edges = [0, *np.flatnonzero(flat[1:] != flat[:-1]).tolist(), mask.size]
+    runs = {"size": [248, 256], "counts": np.diff(edges).tolist()}
+    annotations = [
+        {"id": 3, "image_id": 7, "segmentation": polygon},
+        {"id": 4, "image_id": 7, "segmentation": runs},
+        {"id": 5, "image_id": 8, "segmentation": polygon},
+    ]
+    table = tmp_path / "t.csv"
+    labels = coco(tmp_path, annotations)
+    arguments = ["measure", str(MARS_IMAGE), "--labels", str(labels), "--out", str(table)]
+    assert main(arguments) == 0
+    frame = pd.read_csv(table)
+    assert frame["rock"].tolist() == [3, 4]
+    assert frame["area_px"][1] == 40 * 40
+    # a polygon drawn to a sixteenth of a pixel may take or leave its border pixels
+    assert frame["area_px"][0] == pytest.approx(20 * 40, abs=2 * (20 + 40))
+
+
+@pytest.mark.parametrize(
+    ("annotation", "says"),
+    [
+        ({"id": 1, "image_id": 7, "segmentation": [[1, 2, 3, 4]]}, "three points"),
+        ({"id": 0, "image_id": 7, "segmentation": [[1, 2, 3, 4, 5, 6]]}, "positive id"),
+        ({"id": 1, "image_id": 7, "segmentation": {"size": [9, 9], "counts": [81]}}, "run lengths"),
+        ({"id": 1, "image_id": 7}, "segmentation"),
+    ],
+)
+def test_bad_coco(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], annotation: dict, says: str
+) -> None:
+    path = coco(tmp_path, [annotation])
+    fails_in_one_line(capsys, ["measure", str(MARS_IMAGE), "--labels", str(path)], str(path), says)
+
+
+def test_a_ply_with_a_vertex_for_each_pixel_is_range(tmp_path: Path) -> None:
+    points = np.load(MARS_RANGE)["xyz"].reshape(-1, 3)
+    path = tmp_path / "range.ply"
+    header = "ply\nformat binary_little_endian 1.0\n"
+    header += f"element vertex {len(points)}\n"
+    header += "".join(f"property float {axis}\n" for axis in "xyz") + "end_header\n"
+    path.write_bytes(header.encode() + points.astype("<f4").tobytes())
+    tables = []
+    for name in (path, MARS_RANGE):
+        tables.append(tmp_path / f"{name.suffix}.csv")
+        arguments = ["measure", str(MARS_IMAGE), "--range", str(name), "--out", str(tables[-1])]
+        assert main(arguments) == 0
+    assert tables[0].read_text() == tables[1].read_text()
+
+
+def test_the_report_is_one_page_with_every_rock(tmp_path: Path) -> None:
+    page = tmp_path / "page.html"
+    arguments = ["measure", str(GRAINS_IMAGE), "--labels", str(GRAINS_LABELS)]
+    assert main([*arguments, "--out", str(tmp_path / "t.csv"), "--report", str(page)]) == 0
+    text = page.read_text()
+    assert text.count("<tr>") == 1 + 124
+    assert "data:image/jpeg;base64," in text
+    assert "http" not in text
 
 
 def test_labels_read_back_give_the_same_flat_measures(tmp_path: Path) -> None:
@@ -151,6 +225,10 @@ def empty(path: Path) -> None:
     path.write_bytes(b"")
 
 
+def nothing_known(path: Path) -> None:
+    path.write_bytes(b"\x93NUMPY\x01\x00v\x00{'descr': '<f8', 'shape': (99999999999,)}")
+
+
 def folder(path: Path) -> None:
     path.mkdir()
 
@@ -167,6 +245,7 @@ def folder(path: Path) -> None:
         (cut, "expected range"),
         (empty, "found an empty file"),
         (folder, "found a directory"),
+        (nothing_known, "expected range"),
     ],
 )
 def test_a_bad_range(
@@ -188,6 +267,10 @@ def test_a_bad_range(
         ('{"fy": 50, "cx": 24, "cy": 19, "width": 256, "height": 248}', "fx"),
         ('{"fx": 0, "fy": 5, "cx": 2, "cy": 1, "width": 256, "height": 248}', "fx"),
         ('{"fx": "far"}', "fx"),
+        (
+            '{"fx": 5, "fy": 5, "cx": 2, "cy": 1, "width": 2, "height": 2, "depth_scale": -1}',
+            "depth_scale",
+        ),
         ("[1, 2]", "object"),
         ("not JSON", "found"),
         ('{"fx": 5, "fy": 5, "cx": 2, "cy": 1, "width": 25, "height": 24}', "(24, 25)"),
@@ -213,6 +296,10 @@ def test_a_bad_camera(
         (["--labels", str(GRAINS_LABELS)], "(512, 512)"),
         (["--labels", str(GRAINS_IMAGE)], "label image"),
         (["--frobnicate"], "--frobnicate"),
+        (["--out", "a.csv", "--labels-out", "a.png", "--overlay", "a.png"], "a.png"),
+        (["--overlay", str(MARS_IMAGE)], "of its own"),
+        (["--report", "page.txt"], "page.txt"),
+        (["--range", str(MARS_IMAGE)], "16 bits"),
     ],
 )
 def test_bad_arguments(
@@ -228,6 +315,19 @@ def test_bad_arguments(
     assert list(tmp_path.iterdir()) == []
 
 
+def test_labels_beyond_16_bits_are_refused_before_anything_is_written(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    labels = tmp_path / "labels.tif"
+    tifffile.imwrite(labels, np.full((248, 256), 70000, dtype=np.int32))
+    table = tmp_path / "t.csv"
+    outputs = ["--out", str(table), "--labels-out", str(tmp_path / "l.png")]
+    fails_in_one_line(
+        capsys, ["measure", str(MARS_IMAGE), "--labels", str(labels), *outputs], "found 70000"
+    )
+    assert not table.exists()
+
+
 def test_neither_range_nor_labels(capsys: pytest.CaptureFixture[str]) -> None:
     fails_in_one_line(capsys, ["measure", str(MARS_IMAGE)], "--range or --labels")
 
@@ -241,6 +341,27 @@ def test_range_that_is_nan_everywhere_still_measures_the_flat_columns(tmp_path: 
     frame = pd.read_csv(table)
     assert frame["axis_ratio"].notna().all()
     assert frame["reason"].str.contains("no range").all()
+
+
+def test_range_that_is_zero_everywhere_says_degenerate(tmp_path: Path) -> None:
+    range_path = tmp_path / "zero.npy"
+    np.save(range_path, np.zeros((512, 512, 3)))
+    table = tmp_path / "t.csv"
+    arguments = ["--labels", str(GRAINS_LABELS), "--range", str(range_path), "--out", str(table)]
+    assert main(["measure", str(GRAINS_IMAGE), *arguments]) == 0
+    frame = pd.read_csv(table)
+    assert frame["sphericity_3d"].isna().all()
+    assert frame["reason"].str.contains("degenerate").any()
+
+
+def test_a_file_the_system_refuses_is_one_line(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refused(path: Path) -> None:
+        raise OSError(28, "No space left on device", str(path))
+
+    monkeypatch.setattr("rockshape.commands.measure.read_image", refused)
+    fails_in_one_line(capsys, ["measure", "a.png", "--range", "b.npz"], "a.png: No space left")
 
 
 def test_a_defect_keeps_its_traceback(monkeypatch: pytest.MonkeyPatch) -> None:

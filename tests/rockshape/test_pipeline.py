@@ -65,16 +65,61 @@ def test_range_that_is_nowhere_known_leaves_the_flat_measures(yard: Observation)
     assert (frame["reason"] == "no range").all()
 
 
-@pytest.mark.parametrize("pixels", [1, 2, 3, 8, 30])
-def test_small_and_thin_rocks_give_nan_with_a_reason(pixels: int) -> None:
+def rows_of(*rows: str) -> np.ndarray:
+    """A mask drawn with 1 and 0."""
+    return np.array([[pixel == "1" for pixel in row] for row in rows])
+
+
+@pytest.mark.parametrize(
+    "mask",
+    [np.ones((1, count), dtype=bool) for count in (1, 2, 3, 8, 30)]
+    + [np.ones((2, count), dtype=bool) for count in (1, 2, 30)]
+    + [np.eye(25, dtype=bool), rows_of("100", "100", "010", "010", "001")],
+    ids=lambda mask: f"{mask.shape[0]}x{mask.shape[1]}",
+)
+def test_small_and_thin_rocks_give_nan_with_a_reason(mask: np.ndarray) -> None:
     labels = np.zeros((60, 60), dtype=np.int32)
-    labels[20, 20 : 20 + pixels] = 5
+    labels[20 : 20 + mask.shape[0], 20 : 20 + mask.shape[1]] = 5 * mask
     image = np.zeros(labels.shape, dtype=np.float32)
     frame = to_frame(measure(Observation(image=image), labels=labels))
     values = frame[[entry.column for entry in PAPER]].iloc[0]
     assert np.isnan(values["axis_ratio"])
-    assert frame["reason"].iloc[0] != ""
-    assert frame["area_px"].iloc[0] == pixels
+    assert frame["reason"].iloc[0] in (
+        "too small; no range",
+        "degenerate; no range",
+        "degenerate; too small; no range",
+    )
+    assert frame["area_px"].iloc[0] == mask.sum()
+
+
+def test_of_a_label_in_two_pieces_the_larger_is_measured() -> None:
+    labels = np.zeros((80, 200), dtype=np.int32)
+    y, x = np.mgrid[:80, :200]
+    labels[np.hypot(x - 40, y - 40) < 20] = 1
+    whole = to_frame(
+        measure(Observation(image=np.zeros((80, 200), dtype=np.float32)), labels=labels)
+    )
+    labels[np.hypot(x - 150, y - 40) < 10] = 1
+    parts = to_frame(
+        measure(Observation(image=np.zeros((80, 200), dtype=np.float32)), labels=labels)
+    )
+    columns_to_compare = ["area_px", "width_px", "row", "col", "sphericity_2d", "axis_ratio"]
+    assert parts[columns_to_compare].equals(whole[columns_to_compare])
+
+
+def test_no_mask_however_odd_crashes_or_gives_a_wild_number(rng: np.random.Generator) -> None:
+    labels = np.zeros((420, 420), dtype=np.int32)
+    number = 0
+    for row in range(10, 410, 10):
+        for col in range(10, 410, 10):
+            height, width = rng.integers(1, 8, 2)
+            number += 1
+            labels[row : row + height, col : col + width] = number * (
+                rng.random((height, width)) < 0.7
+            )
+    image = np.zeros(labels.shape, dtype=np.float32)
+    for rock in measure(Observation(image=image), labels=labels).rocks:
+        assert rock.ellipse is None or rock.ellipse.major < 100
 
 
 def test_nothing_to_find_rocks_by_finds_none() -> None:

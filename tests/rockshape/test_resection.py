@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from rockshape.camera import Camera
 from rockshape.errors import InputError
 from rockshape.io import read_image, read_range
 from rockshape.observation import Observation
@@ -39,6 +40,27 @@ def test_an_observation_moves_such_a_grid_to_the_camera() -> None:
     observation = Observation(image=image, points_m=points @ rotation.T + [4.0, -2.0, 1.3])
     assert observation.points_m is not None
     assert observation.points_m == pytest.approx(points, abs=1e-5, nan_ok=True)
+
+
+def test_a_grid_in_its_cameras_frame_is_left_alone() -> None:
+    # the principal point lies far from the middle, which a resection would take for a turn
+    camera = Camera(fx=400, fy=410, cx=120, cy=100, width=320, height=240)
+    plane = solids.plane_range(camera, normal=np.array([0, -0.8, -0.6]), offset_m=-1.5)
+    points = solids.nearest(
+        plane,
+        solids.ellipsoid_range(
+            camera,
+            centre_m=np.array([0.1, 0.2, 2.0]),
+            half_axes_m=np.array([0.3, 0.2, 0.2]),
+            axes=np.eye(3),
+        ),
+    )
+    image = np.zeros(camera.shape, dtype=np.float32)
+    observation = Observation(image=image, points_m=points)
+    assert np.array_equal(observation.points_m, points, equal_nan=True)
+    assert observation.camera is not None
+    assert observation.camera.cx == pytest.approx(camera.cx)
+    assert observation.camera.fy == pytest.approx(camera.fy)
 
 
 def test_the_lander_camera_of_the_mars_frame_is_found() -> None:

@@ -51,6 +51,21 @@ def test_compressed_tiff(tmp_path: Path) -> None:
     assert read_image(path) == pytest.approx(np.full((3, 4), 0.2))
 
 
+def test_a_palette_in_a_tiff_becomes_its_colours(tmp_path: Path) -> None:
+    path = tmp_path / "image.tif"
+    Image.fromarray(np.full((3, 4), 255, dtype=np.uint8)).convert("P").save(path)
+    assert read_image(path) == pytest.approx(np.ones((3, 4)), abs=1e-6)
+
+
+def test_planes_stored_apart_are_one_picture(tmp_path: Path) -> None:
+    path = tmp_path / "image.tif"
+    planes = np.zeros((3, 6, 7), dtype=np.uint8)
+    planes[1] = 255
+    tifffile.imwrite(path, planes, photometric="rgb", planarconfig="separate")
+    # green's weight in luma, rounded to 8 bits
+    assert read_image(path) == pytest.approx(np.full((6, 7), 0.587), abs=1 / 255)
+
+
 def test_a_float_image_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "image.tif"
     tifffile.imwrite(path, RAMP.astype(np.float32))

@@ -1,0 +1,36 @@
+"""The page of `rockshape measure --report`: self-contained HTML."""
+
+import base64
+from importlib.resources import files
+
+import cv2
+import jinja2
+import numpy as np
+from numpy.typing import NDArray
+
+from rockshape.draw import overlay
+from rockshape.measures import METHODS
+from rockshape.pipeline import Measurement
+from rockshape.table import AXES, to_frame
+
+DIGITS = 4
+
+
+def render_page(title: str, image: NDArray[np.float32], measurement: Measurement) -> str:
+    """HTML that shows the image, (rows, cols) from 0 to 1, with its rocks and their table."""
+    picture = cv2.cvtColor(overlay(image, measurement), cv2.COLOR_RGB2BGR)
+    jpeg = cv2.imencode(".jpg", picture, [cv2.IMWRITE_JPEG_QUALITY, 88])[1]
+    measures = METHODS[measurement.method]
+    frame = to_frame(measurement)
+    numbers = ["area_px", *AXES, *(measure.column for measure in measures)]
+    environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
+    environment.filters["number"] = lambda value: "" if np.isnan(value) else f"{value:.{DIGITS}g}"
+    template = (files("rockshape.report") / "page.html").read_text(encoding="utf-8")
+    return environment.from_string(template).render(
+        title=title,
+        picture=base64.b64encode(jpeg.tobytes()).decode(),
+        ground=measurement.ground,
+        measures=measures,
+        numbers=numbers,
+        rocks=frame.to_dict(orient="records"),
+    )

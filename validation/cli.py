@@ -89,6 +89,10 @@ def _print_verdict(run: Run, out: Path, seconds: float) -> None:
                 f"gate failed: {gate.score} expected {gate.relation} {number(gate.bound)}, "
                 f"found {number(result.found)}: {gate.reason}"
             )
+    for check in run.checks:
+        if not check.sound:
+            verdict = "does not pass every gate" if check.knows else "passes every gate"
+            print(f"warning: fed with {check.fed}, the suite {verdict}", file=sys.stderr)
     passed = sum(result.passed for result in run.gates)
     verdict = "passed" if run.passed else "FAILED"
     print(f"{verdict}: {passed} of {len(run.gates)} gates in {seconds:.0f} s; {out / 'index.html'}")

@@ -1,7 +1,7 @@
-"""Two measurers whose scores are known before: one that knows the truth, one that mixes it up.
+"""Measurers whose verdict is known before: one that knows the truth and two that know nothing.
 
-They go through the same scoring and the same gates as a real run. If the oracle failed a gate on
-rank, or the shuffled one passed them all, the harness would be wrong and not the measures.
+They go through the same scoring and the same gates as a real run. If the oracle failed a gate, or
+one of the others passed them all, the gates would be wrong and not the measures.
 """
 
 from collections.abc import Iterator
@@ -48,4 +48,18 @@ def shuffled(records: pd.DataFrame, *, rng: np.random.Generator) -> pd.DataFrame
         dealt = dict(zip(instances, rng.permutation(instances), strict=True))
         source = scene.drop_duplicates("instance").set_index("instance")[columns]
         fed.loc[scene.index, columns] = source.loc[scene["instance"].map(dealt)].to_numpy()
+    return fed
+
+
+def mixed(records: pd.DataFrame, *, rng: np.random.Generator) -> pd.DataFrame:
+    """Return the records with each view's measured values dealt out anew among its rocks.
+
+    The values are as they were measured, but no rock keeps its own from one view to the next: a
+    gate on how well a rock's value holds must fail.
+    """
+    fed = records.copy()
+    columns = list(dict.fromkeys(claim.measure for _, claim in _claims(records)))
+    found = fed[fed["status"] == "matched"]
+    for _, view in found.groupby(["experiment", "series", "scene", "view"], sort=True):
+        fed.loc[view.index, columns] = view[columns].to_numpy()[rng.permutation(len(view))]
     return fed

@@ -1,8 +1,9 @@
 """Run a suite: its units on local processes, then scores, then gates."""
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
+from contextlib import contextmanager
 from dataclasses import dataclass
 from multiprocessing import get_context
 
@@ -14,7 +15,7 @@ import pandas as pd
 from synth.render import choose_backend
 from validation.errors import InputError
 from validation.gates import Gate, GateResult, evaluate
-from validation.oracle import oracle, shuffled
+from validation.oracle import mixed, oracle, shuffled
 from validation.pictures import Picture
 from validation.scores import Score, score_records, score_values
 from validation.suite import Experiment, Suite, YardExperiment
@@ -23,6 +24,26 @@ from validation.units import Unit, UnitResult, run_unit, units_of
 SHUFFLE_SEED = 6
 
 OnDone = Callable[[Unit], None]
+
+
+@dataclass(frozen=True)
+class Check:
+    """The suite's own gates on records whose verdict is known before."""
+
+    name: str
+    fed: str  # what was fed in, in words
+    knows: bool  # whether it knows the truth, and must pass every gate, or must not
+    gates: tuple[GateResult, ...]
+
+    @property
+    def passes(self) -> tuple[str, ...]:
+        """The scores whose gates it passed."""
+        return tuple(result.gate.score for result in self.gates if result.passed)
+
+    @property
+    def sound(self) -> bool:
+        """Whether the verdict is the one it must be."""
+        return (len(self.passes) == len(self.gates)) == self.knows
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,8 +56,7 @@ class Run:
     backend: str
     scores: tuple[Score, ...]
     gates: tuple[GateResult, ...]
-    oracle_gates: tuple[GateResult, ...]  # the same gates on the truth fed in as measurement
-    shuffled_gates: tuple[GateResult, ...]  # the same gates on the truth dealt out anew
+    checks: tuple[Check, ...]  # oracle, shuffled, mixed
 
     @property
     def passed(self) -> bool:
@@ -44,9 +64,24 @@ class Run:
         return all(gate.passed for gate in self.gates)
 
 
+BLAS_THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
+
+
 def _one_thread() -> None:
     """Keep a worker to one thread: the processes are the parallelism."""
     cv2.setNumThreads(1)
+
+
+@contextmanager
+def _one_blas_thread() -> Iterator[None]:
+    """Let processes begun within start numpy with one thread, unless the user says otherwise."""
+    added = {name: "1" for name in BLAS_THREADS if name not in os.environ}
+    os.environ.update(added)
+    try:
+        yield
+    finally:
+        for name in added:
+            del os.environ[name]
 
 
 def _run_on(executor: Executor, units: Sequence[Unit], on_done: OnDone) -> list[UnitResult]:
@@ -70,13 +105,19 @@ def run_units(units: Sequence[Unit], *, jobs: int, on_done: OnDone) -> list[Unit
     if jobs < 1:
         raise InputError(f"--jobs: expected 1 or more, found {jobs}")
     workers = min(jobs, len(units))
-    with ProcessPoolExecutor(workers, get_context("spawn"), initializer=_one_thread) as executor:
+    spawn = get_context("spawn")
+    with (
+        _one_blas_thread(),
+        ProcessPoolExecutor(workers, spawn, initializer=_one_thread) as executor,
+    ):
         return _run_on(executor, units, on_done)
 
 
 def default_jobs() -> int:
     """Return the number of processors this process may use."""
-    return len(os.sched_getaffinity(0))
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
 def _with_backend(experiment: Experiment) -> Experiment:
@@ -90,7 +131,8 @@ def _with_backend(experiment: Experiment) -> Experiment:
 
 
 def assess(suite: Suite, gates: Sequence[Gate], results: Sequence[UnitResult]) -> Run:
-    """Score the results and hold the scores, the oracle's and the shuffled truth's to the gates."""
+    """Score the results and hold the scores, and those of the known measurers, to the gates."""
+    rng = np.random.default_rng(SHUFFLE_SEED)
     records = pd.concat([result.records for result in results], ignore_index=True)
     scores = score_records(suite, records)
 
@@ -104,8 +146,11 @@ def assess(suite: Suite, gates: Sequence[Gate], results: Sequence[UnitResult]) -
         backend=", ".join(sorted({r.backend for r in results if r.backend})),
         scores=scores,
         gates=evaluate(gates, {score.name: score.value for score in scores}),
-        oracle_gates=gated(oracle(records)),
-        shuffled_gates=gated(shuffled(records, rng=np.random.default_rng(SHUFFLE_SEED))),
+        checks=(
+            Check("oracle", "the truth as measurement", True, gated(oracle(records))),
+            Check("shuffled", "the truth of other rocks", False, gated(shuffled(records, rng=rng))),
+            Check("mixed", "the values of other rocks", False, gated(mixed(records, rng=rng))),
+        ),
     )
 
 

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from validation.gates import Gate, evaluate
-from validation.oracle import oracle, shuffled
+from validation.oracle import mixed, oracle, shuffled
 from validation.scores import definitions, score_records, score_values
 from validation.scores.shapes import gap_shares
 
@@ -41,13 +41,25 @@ def test_shuffled_truth_fails_every_gate_on_the_order_against_it(suite, noise, r
     assert [r.gate.score for r in judged if r.passed] == []
 
 
+def test_values_dealt_out_in_each_view_fail_every_gate_on_how_they_hold(suite, noise) -> None:
+    perfect = oracle(noise)
+    fed = mixed(perfect, rng=np.random.default_rng(0))
+    results = evaluate(suite.gates, score_values(suite, fed))
+    judged = [r for r in results if r.gate.score.endswith((".cv", ".tau_views", ".tau"))]
+    assert any(r.gate.score.endswith(".cv") for r in judged)
+    assert [r.gate.score for r in judged if r.passed] == []
+    # the truth and the rocks found stay as they are
+    assert fed["truth_angularity"].equals(perfect["truth_angularity"])
+    assert fed["iou"].equals(perfect["iou"])
+
+
 def test_shuffling_leaves_the_agreement_of_the_views(suite, noise) -> None:
     values = score_values(suite, shuffled(noise, rng=np.random.default_rng(0)))
     assert values["yard.angularity_2d_deg.kendall_w"] == 1.0
 
 
 def test_noise_fails_a_gate_on_order_for_every_measure(suite, noise, ranking) -> None:
-    # 240 and more independent pairs a measure within views: τ_b of noise has a standard deviation
+    # 240 and more pairs a measure within views: τ_b of noise has a standard deviation
     # below 0.15 even with 3 pairs clustered to a rock, so that 0.6 is four of them away.
     gates = [Gate(score=n, at_least=0.6, reason="r") for n in ranking if "yard" in n]
     assert not any(r.passed for r in evaluate(gates, score_values(suite, noise)))

@@ -56,9 +56,7 @@ def scores_json(run: Run) -> str:
             for measure, values in paper_values().items()
         },
         "self_check": {
-            "gates": len(run.gates),
-            "oracle_passes": sum(gate.passed for gate in run.oracle_gates),
-            "shuffled_passes": sum(gate.passed for gate in run.shuffled_gates),
+            check.name: {"sound": check.sound, "passes": check.passes} for check in run.checks
         },
     }
     return (

@@ -1,6 +1,6 @@
 """The camera: presets, poses and projection, in OpenCV's frame (x right, y down, z forward)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,24 +37,44 @@ class Camera:
 
 @dataclass(frozen=True)
 class Preset:
-    """A flown camera and the distance at which rocks of the default size suit it."""
+    """A flown camera, its stereo baseline and the distance at which default rocks suit it."""
 
     camera: Camera
     distance_m: float
+    baseline_m: float | None = None  # from the left eye to the right one; None: one eye alone
 
 
-def _square_preset(*, size_px: int, pixel_mrad: float, distance_m: float) -> Preset:
+def _preset(
+    width_px: int, height_px: int, *, pixel_mrad: float, baseline_m: float, distance_m: float
+) -> Preset:
+    """Return a preset with square pixels and the principal point in the frame's middle."""
     focal_px = 1000.0 / pixel_mrad
-    centre_px = (size_px - 1) / 2.0
-    camera = Camera(focal_px, focal_px, centre_px, centre_px, size_px, size_px)
-    return Preset(camera=camera, distance_m=distance_m)
+    camera = Camera(
+        fx=focal_px,
+        fy=focal_px,
+        cx=(width_px - 1) / 2.0,
+        cy=(height_px - 1) / 2.0,
+        width=width_px,
+        height=height_px,
+    )
+    return Preset(camera=camera, distance_m=distance_m, baseline_m=baseline_m)
 
 
-# Frame and central pixel's angle: Imager for Mars Pathfinder (Smith et al. 1997) and the
-# engineering cameras of Mars Science Laboratory (Maki et al. 2012).
+# Frame, central pixel's angle and baseline: Imager for Mars Pathfinder (Smith et al. 1997),
+# Sojourner (Matijevic et al. 1997), Mars Exploration Rovers (Maki et al. 2003, Bell et al. 2003),
+# Mars Science Laboratory (Maki et al. 2012), Mars 2020 (Maki et al. 2020). A fisheye is taken as
+# the pinhole with its frame and its central pixel, so its field is narrower than the lens's.
 PRESETS = {
-    "imp": _square_preset(size_px=256, pixel_mrad=0.98, distance_m=11.0),
-    "msl-navcam": _square_preset(size_px=1024, pixel_mrad=0.82, distance_m=4.5),
+    "imp": _preset(256, 256, pixel_mrad=0.98, baseline_m=0.150, distance_m=11.0),
+    "sojourner": replace(
+        _preset(768, 484, pixel_mrad=2.9, baseline_m=0.126, distance_m=2.5),
+        camera=Camera(1000.0 / 2.9, 1000.0 / 3.4, 383.5, 241.5, 768, 484),
+    ),
+    "mer-navcam": _preset(1024, 1024, pixel_mrad=0.82, baseline_m=0.20, distance_m=4.5),
+    "mer-hazcam": _preset(1024, 1024, pixel_mrad=2.1, baseline_m=0.10, distance_m=2.5),
+    "mer-pancam": _preset(1024, 1024, pixel_mrad=0.28, baseline_m=0.30, distance_m=11.0),
+    "msl-navcam": _preset(1024, 1024, pixel_mrad=0.82, baseline_m=0.424, distance_m=4.5),
+    "m2020-navcam": _preset(5120, 3840, pixel_mrad=0.33, baseline_m=0.424, distance_m=4.5),
 }
 
 
@@ -72,6 +92,12 @@ class Pose:
     def camera_points_m(self, world_points_m: Floats) -> Floats:
         """Return world points, (..., 3), in the camera's frame."""
         return np.asarray(world_points_m @ self.world_to_camera.T + self.translation_m)
+
+
+def right_eye(pose: Pose, baseline_m: float) -> Pose:
+    """Return the pose of a second, parallel camera, a baseline to the right of the first."""
+    shift_m = np.array([baseline_m, 0.0, 0.0])
+    return Pose(pose.world_to_camera, pose.translation_m - shift_m)
 
 
 def look_at(position_m: Floats, target_m: Floats) -> Pose:

@@ -6,7 +6,15 @@ from msgspec import Meta, Struct
 
 from synth.spec.limits import Count, Degrees, Fraction, Positive
 
-PresetName = Literal["imp", "msl-navcam"]
+PresetName = Literal[
+    "imp",
+    "sojourner",
+    "mer-navcam",
+    "mer-hazcam",
+    "mer-pancam",
+    "msl-navcam",
+    "m2020-navcam",
+]
 
 
 class CameraSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):

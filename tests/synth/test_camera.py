@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from synth.camera import PRESETS, look_at, project, ring
+from synth.camera import PRESETS, look_at, project, right_eye, ring
 
 
 @pytest.mark.parametrize("name", PRESETS)
@@ -38,3 +38,34 @@ def test_refining_keeps_the_field():
 def test_straight_down_is_defined():
     pose = look_at(np.array([0.0, 0.0, 3.0]), np.zeros(3))
     np.testing.assert_allclose(pose.camera_points_m(np.array([1.0, 0.0, 0.0])), [1.0, 0.0, 3.0])
+
+
+@pytest.mark.parametrize(
+    ("name", "at_2_m", "at_10_m"),
+    [
+        ("imp", 0.84, 21.0),
+        ("sojourner", 3.0, 74.0),
+        ("mer-navcam", 0.52, 13.0),
+        ("mer-hazcam", 2.7, 67.0),
+        ("mer-pancam", 0.12, 3.0),
+        ("msl-navcam", 0.25, 6.2),
+        ("m2020-navcam", 0.10, 2.5),
+    ],
+)
+def test_presets_have_the_range_error_of_their_papers(name, at_2_m, at_10_m):
+    # Z² σ_d/(f B) in centimetres at σ_d = 0.32 px; the figures are rounded to two digits.
+    preset = PRESETS[name]
+    error_cm = 100 * 0.32 / (preset.camera.fx * preset.baseline_m)
+    assert error_cm * 4 == pytest.approx(at_2_m, rel=0.05)
+    assert error_cm * 100 == pytest.approx(at_10_m, rel=0.03)
+
+
+def test_the_right_eye_sees_points_a_disparity_to_the_left():
+    camera = PRESETS["msl-navcam"].camera
+    left = look_at(np.array([3.0, 1.0, 2.0]), np.zeros(3))
+    point = np.array([0.3, -0.2, 0.1])
+    one = project(camera, left.camera_points_m(point))
+    two = project(camera, right_eye(left, 0.424).camera_points_m(point))
+    depth_m = left.camera_points_m(point)[2]
+    # d = f B/Z, along the row alone.
+    np.testing.assert_allclose(one - two, [camera.fx * 0.424 / depth_m, 0.0], atol=1e-9)

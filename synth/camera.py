@@ -1,11 +1,15 @@
 """The camera: presets, poses and projection, in OpenCV's frame (x right, y down, z forward)."""
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
+Reals = NDArray[np.floating[Any]]
+
+_ROUNDS = 40  # of the lens's inverse; each gains a digit or two at the distortions in use
 
 
 @dataclass(frozen=True)
@@ -18,6 +22,7 @@ class Camera:
     cy: float  # pixels
     width: int  # pixels
     height: int  # pixels
+    distortion: tuple[float, ...] | None = None  # k1, k2, p1, p2, k3 of OpenCV; None: a pinhole
 
     def matrix(self) -> Floats:
         """Return K, (3, 3): pixels from camera coordinates over depth."""
@@ -32,6 +37,7 @@ class Camera:
             cy=(self.cy + 0.5) * factor - 0.5,
             width=self.width * factor,
             height=self.height * factor,
+            distortion=self.distortion,
         )
 
 
@@ -100,8 +106,10 @@ def right_eye(pose: Pose, baseline_m: float) -> Pose:
     return Pose(pose.world_to_camera, pose.translation_m - shift_m)
 
 
-def look_at(position_m: Floats, target_m: Floats) -> Pose:
-    """Return the pose at a position that has the target on its axis and the horizon level.
+def look_at(position_m: Floats, target_m: Floats, *, roll_rad: float = 0.0) -> Pose:
+    """Return the pose at a position that has the target on its axis, rolled from a level horizon.
+
+    A roll turns the camera clockwise about its axis, so the image turns anticlockwise.
 
     Straight up or down the horizon is undefined; the image's right is then the world's x.
     """
@@ -111,25 +119,46 @@ def look_at(position_m: Floats, target_m: Floats) -> Pose:
     length = np.linalg.norm(right)
     right = right / length if length > 1e-12 else np.array([1.0, 0.0, 0.0])
     world_to_camera = np.stack([right, np.cross(forward, right), forward])
+    if roll_rad:
+        cosine, sine = np.cos(roll_rad), np.sin(roll_rad)
+        roll = np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+        world_to_camera = roll @ world_to_camera
     return Pose(world_to_camera=world_to_camera, translation_m=-world_to_camera @ position_m)
-
-
-def ring(*, count: int, distance_m: float, elevation_rad: float, start_rad: float) -> list[Pose]:
-    """Return `count` poses evenly round the vertical through the origin, all looking at it."""
-    azimuths_rad = start_rad + 2.0 * np.pi * np.arange(count) / count
-    level_m = distance_m * np.cos(elevation_rad)
-    height_m = distance_m * np.sin(elevation_rad)
-    return [
-        look_at(
-            np.array([level_m * np.cos(azimuth), level_m * np.sin(azimuth), height_m]), np.zeros(3)
-        )
-        for azimuth in azimuths_rad
-    ]
 
 
 def project(camera: Camera, points_m: Floats) -> Floats:
     """Return pixels (column, row), (..., 2), of camera-frame points (..., 3) in front of it."""
-    depth_m = points_m[..., 2]
-    column = camera.fx * points_m[..., 0] / depth_m + camera.cx
-    row = camera.fy * points_m[..., 1] / depth_m + camera.cy
-    return np.stack([column, row], axis=-1)
+    across = points_m[..., 0] / points_m[..., 2]
+    down = points_m[..., 1] / points_m[..., 2]
+    across, down = distorted(camera, across, down)
+    return np.stack([camera.fx * across + camera.cx, camera.fy * down + camera.cy], axis=-1)
+
+
+def distorted(camera: Camera, across: Reals, down: Reals) -> tuple[Reals, Reals]:
+    """Return where the lens puts rays (x/z, y/z), by Brown and Conrady's model as OpenCV has it."""
+    if camera.distortion is None:
+        return across, down
+    k1, k2, p1, p2, k3 = camera.distortion
+    square = across**2 + down**2
+    radial = 1.0 + square * (k1 + square * (k2 + square * k3))
+    return (
+        across * radial + 2.0 * p1 * across * down + p2 * (square + 2.0 * across**2),
+        down * radial + p1 * (square + 2.0 * down**2) + 2.0 * p2 * across * down,
+    )
+
+
+def undistorted(camera: Camera, across: Reals, down: Reals) -> tuple[Reals, Reals]:
+    """Return the rays (x/z, y/z) that the lens puts there: the inverse of `distorted`.
+
+    The fixed point of x ← x + (wanted − distorted(x)), which converges wherever the lens does not
+    fold the image; both arguments are broadcast together.
+    """
+    if camera.distortion is None:
+        return across, down
+    wanted_across, wanted_down = (np.asarray(one) for one in np.broadcast_arrays(across, down))
+    x: Reals = wanted_across.astype(np.float64)
+    y: Reals = wanted_down.astype(np.float64)
+    for _ in range(_ROUNDS):
+        found_x, found_y = distorted(camera, x, y)
+        x, y = np.add(x, wanted_across - found_x), np.add(y, wanted_down - found_y)
+    return x, y

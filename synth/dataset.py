@@ -19,7 +19,7 @@ from synth.scene import Scene, build_scene, camera_distance_m
 from synth.spec import RendererName, SceneSpec
 
 PARTIAL = ".partial"  # folder of scenes that are not whole yet, gone when the dataset is
-_DISTRIBUTIONS = ("rockshape", "numpy", "scipy", "trimesh", "opencv-python-headless")
+_DISTRIBUTIONS = ("rockshape", "numpy", "scipy", "trimesh", "opencv-python-headless", "embreex")
 _BACKEND_DISTRIBUTION = {"osmesa": "arcade-pyrender", "egl": "arcade-pyrender", "embree": "embreex"}
 
 
@@ -54,7 +54,7 @@ def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -
     scene is written apart and renamed into place when whole, after its models.
     """
     scene = build_scene(spec, index)
-    stage = light_scene(scene, spec.sun)
+    stage = light_scene(scene, spec.sun, spec.surface)
     renderer = open_renderer(backend, stage, scene.camera)
     scale_mm = depth_scale_mm(spec)
     folder = out / PARTIAL / scene_name(index)

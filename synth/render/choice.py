@@ -37,11 +37,11 @@ def choose_backend(name: RendererName) -> RendererName:
             if has_backend(backend):
                 return backend
         raise MissingBackendError(
-            f"--renderer: expected one on this machine, found none: install {_PACKAGES['osmesa']}"
+            f"renderer: expected one on this machine, found none: install {_PACKAGES['osmesa']}"
         )
     if not has_backend(name):
         raise MissingBackendError(
-            f"--renderer: {name} is missing on this machine: install {_PACKAGES[name]}"
+            f"renderer: {name} is missing on this machine: install {_PACKAGES[name]}"
         )
     return name
 
@@ -59,16 +59,19 @@ def has_backend(name: RendererName) -> bool:
 def open_renderer(backend: RendererName, stage: Stage, camera: Camera) -> Renderer:
     """Return a renderer of the stage; for OpenGL, this process is bound to the backend for good.
 
+    OpenGL draws straight lines only: a camera whose lens distorts is ray cast by Embree, which
+    every installation has, whatever the backend.
+
     Raises:
         MissingBackendError: the process is bound to another OpenGL backend already.
     """
-    if backend == "embree":
+    if backend == "embree" or camera.distortion is not None:
         embree = importlib.import_module("synth.render.embree")
         return embree.EmbreeRenderer(stage, camera)  # type: ignore[no-any-return]
     bound = os.environ.get("PYOPENGL_PLATFORM")
     if "OpenGL" in sys.modules and bound != backend:
         raise MissingBackendError(
-            f"--renderer: expected a process without OpenGL for {backend}, found {bound} at work"
+            f"renderer: expected a process without OpenGL for {backend}, found {bound} at work"
         )
     os.environ["PYOPENGL_PLATFORM"] = backend
     gl = importlib.import_module("synth.render.gl")

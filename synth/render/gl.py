@@ -13,25 +13,22 @@ from pyrender.constants import GLTF, RenderFlags
 from synth.camera import Camera, Pose
 from synth.light import Body, Stage
 
-_SKY = 0.75
 _OPENGL_FROM_OPENCV = np.diag([1.0, -1.0, -1.0])  # y up and z backward
 
 
 class GLRenderer:
     """A stage as a pyrender scene.
 
-    The image is drawn flat from the vertices' brightness, so it does not depend on pyrender's
-    shading. Depth comes from the segmentation pass, which is never multisampled. Each pass makes
-    its own off-screen context and deletes it: contexts that live on lose memory with every frame.
+    Labels and depth come from the segmentation pass, which is never multisampled; the painter
+    does the rest. Each pass makes its own off-screen context and deletes it: contexts that live on
+    lose memory with every frame.
     """
 
     def __init__(self, stage: Stage, camera: Camera) -> None:
         self._camera = camera
-        self._scene = pyrender.Scene(bg_color=[_SKY, _SKY, _SKY, 1.0])
+        self._scene = pyrender.Scene()
         self._rocks = [self._scene.add(_mesh(rock)) for rock in stage.rocks]
-        self._ground = self._scene.add(_mesh(stage.ground))
-        if stage.shadows is not None:
-            self._scene.add(_mesh(stage.shadows))
+        self._ground = [self._scene.add(_mesh(body)) for body in stage.ground]
 
     def measure(
         self, pose: Pose, limits_m: tuple[float, float], rocks: Sequence[int] | None
@@ -40,28 +37,18 @@ class GLRenderer:
         shown = range(len(self._rocks)) if rocks is None else rocks
         colours = {self._rocks[index]: _colour(index + 1) for index in shown}
         if rocks is None:
-            colours[self._ground] = _colour(0)
-        colour, depth_m = self._render(
-            self._camera, pose, limits_m, flags=RenderFlags.SEG, colours=colours
-        )
+            colours.update({node: _colour(0) for node in self._ground})
+        colour, depth_m = self._render(pose, limits_m, colours)
         labels = colour[..., 0].astype(np.uint16) + 256 * colour[..., 1].astype(np.uint16)
         return labels, np.where(depth_m > 0.0, depth_m.astype(np.float64), np.nan)
 
-    def paint(self, pose: Pose, limits_m: tuple[float, float], factor: int) -> NDArray[np.uint8]:
-        """See `Renderer.paint`."""
-        camera = self._camera.refined(factor)
-        colour, _ = self._render(camera, pose, limits_m, flags=RenderFlags.FLAT, colours=None)
-        return np.ascontiguousarray(colour[..., 0])
-
     def _render(
         self,
-        camera: Camera,
         pose: Pose,
         limits_m: tuple[float, float],
-        *,
-        flags: int,
-        colours: dict[pyrender.Node, tuple[int, int, int]] | None,
+        colours: dict[pyrender.Node, tuple[int, int, int]],
     ) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
+        camera = self._camera
         # pyrender's pixel centres are at +0.5.
         eye = pyrender.IntrinsicsCamera(
             camera.fx,
@@ -78,7 +65,9 @@ class GLRenderer:
         self._scene.main_camera_node = node
         renderer = pyrender.OffscreenRenderer(camera.width, camera.height)
         try:
-            colour, depth_m = renderer.render(self._scene, flags=flags, seg_node_map=colours)
+            colour, depth_m = renderer.render(
+                self._scene, flags=RenderFlags.SEG, seg_node_map=colours
+            )
             return colour.copy(), depth_m.copy()
         finally:
             renderer.delete()
@@ -86,12 +75,9 @@ class GLRenderer:
 
 
 def _mesh(body: Body) -> pyrender.Mesh:
-    colour = np.ones((len(body.brightness), 4), dtype=np.float32)
-    colour[:, :3] = body.brightness[:, None]
     primitive = pyrender.Primitive(
         positions=body.vertices_m.astype(np.float32),
         indices=body.faces.astype(np.uint32),
-        color_0=colour,
         material=pyrender.MetallicRoughnessMaterial(alphaMode="OPAQUE"),
         mode=GLTF.TRIANGLES,
     )

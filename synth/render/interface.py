@@ -20,6 +20,3 @@ class Renderer(Protocol):
         Labels are 1 + the rock's index, 0 elsewhere; depth is in metres, NaN where nothing is.
         With `rocks` given, only those rocks exist, and no ground. `limits_m` holds all depths.
         """
-
-    def paint(self, pose: Pose, limits_m: tuple[float, float], factor: int) -> NDArray[np.uint8]:
-        """Return the brightness, (rows × factor, cols × factor), 255 for white."""

@@ -8,8 +8,11 @@ import msgspec
 from msgspec import Meta, Struct
 
 from synth.errors import InputError
+from synth.spec.ground import GroundSpec
+from synth.spec.population import PopulationSpec
 from synth.spec.rocks import RocksSpec
 from synth.spec.sensor import NoiseSpec
+from synth.spec.surface import SurfaceSpec
 from synth.spec.view import CameraSpec, SunSpec, ViewsSpec
 
 RendererName = Literal["auto", "osmesa", "egl", "embree"]
@@ -23,6 +26,9 @@ class SceneSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     scenes: Annotated[int, Meta(ge=1, le=9999)] = 1
     renderer: RendererName = "auto"
     rocks: RocksSpec = RocksSpec()
+    population: PopulationSpec = PopulationSpec()
+    ground: GroundSpec = GroundSpec()
+    surface: SurfaceSpec = SurfaceSpec()
     camera: CameraSpec = CameraSpec()
     views: ViewsSpec = ViewsSpec()
     sun: SunSpec = SunSpec()

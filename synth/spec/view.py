@@ -6,6 +6,9 @@ from msgspec import Meta, Struct
 
 from synth.spec.limits import Count, Degrees, Fraction, Positive
 
+Length = Annotated[float, Meta(ge=-1000, le=1000)]
+Coefficient = Annotated[float, Meta(ge=-1, le=1)]
+
 PresetName = Literal[
     "imp",
     "sojourner",
@@ -23,15 +26,32 @@ class CameraSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     preset: PresetName = "msl-navcam"
     distance_m: Positive | None = None  # camera to the scene's centre; None: the preset's own
     elevation_deg: Annotated[float, Meta(ge=5, le=90)] = 32.0  # of the camera, seen from the centre
+    roll_deg: Degrees = 0.0  # about the axis, clockwise as the camera sees its own turn
+    target_m: tuple[Length, Length, Length] = (0.0, 0.0, 0.0)  # what it looks at
+    # k1, k2, p1, p2, k3 as in OpenCV; all zero is a pinhole
+    distortion: tuple[Coefficient, Coefficient, Coefficient, Coefficient, Coefficient] = (
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+    )
     supersample: Annotated[int, Meta(ge=1, le=4)] = 2  # of the image, never of depth or labels
 
 
 class ViewsSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """The camera's stations: a ring, evenly round the scene's centre, looking at it."""
+    """The camera's stations, all looking at camera.target_m.
+
+    `ring`: evenly round the scene's centre. `arc`: evenly over a part of the ring, `start_deg` in
+    its middle. `drive-by`: evenly along a straight line that passes the centre on one side, its
+    middle at `start_deg`.
+    """
 
     count: Count = 4
-    path: Literal["ring"] = "ring"
-    start_deg: Degrees = 0.0  # azimuth of the first station, from x towards y
+    path: Literal["ring", "arc", "drive-by"] = "ring"
+    start_deg: Degrees = 0.0  # azimuth of the first (ring) or middle station, from x towards y
+    arc_deg: Annotated[float, Meta(gt=0, le=360)] = 60.0  # from the first station to the last
+    length_m: Positive = 3.0  # of the drive, from the first station to the last
 
 
 class SunSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):

@@ -6,13 +6,16 @@ from pathlib import Path
 
 import numpy as np
 
-from synth.camera import Camera, ring
+from synth.camera import Camera
+from synth.ground import make_ground
 from synth.light import Stage, light_scene
 from synth.mesh import Mesh
+from synth.paths import ring
 from synth.render import open_renderer, render_view
 from synth.rocks.ellipsoid import ellipsoid
 from synth.scene import PlacedRock, Scene, build_scene
 from synth.spec import SceneSpec
+from synth.spec.ground import GroundSpec
 from synth.spec.rocks import RocksSpec
 from synth.spec.view import CameraSpec, SunSpec
 
@@ -29,7 +32,8 @@ def ball_scene() -> Scene:
     )
     camera = Camera(fx=400.0, fy=410.0, cx=140.3, cy=128.6, width=300, height=240)
     pose = ring(count=1, distance_m=4.0, elevation_rad=0.6, start_rad=0.3)
-    return Scene(rocks=(placed,), camera=camera, poses=tuple(pose))
+    ground = make_ground(GroundSpec(), radius_m=4.0, rng=np.random.default_rng(0))
+    return Scene(rocks=(placed,), camera=camera, poses=tuple(pose), ground=ground)
 
 
 def pair_scene() -> Scene:

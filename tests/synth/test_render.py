@@ -10,12 +10,11 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
-from scipy.ndimage import maximum_filter, minimum_filter
+from scipy.ndimage import maximum_filter
 
 from synth.errors import MissingBackendError
 from synth.render import choice
 from synth.render.choice import BACKENDS, choose_backend, has_backend
-from synth.render.view import block_mean
 
 SCRIPT = Path(__file__).with_name("render_one.py")
 PRESENT = [backend for backend in BACKENDS if has_backend(backend)]
@@ -81,13 +80,10 @@ def test_backends_agree(pair):
     # A sample within rounding of an edge may fall on either side of it.
     assert (one["labels"] != two["labels"]).mean() <= 5e-5
     assert (one["silhouettes"] != two["silhouettes"]).mean() <= 5e-5
-    # Both interpolate the same brightness at the vertices; 8 bits are rounded before and after
-    # the mean of four samples: one grey level. Edges of rocks and shadows are left out, where EGL
-    # has four samples more in each; what is left of fainter edges differs by no more than 12.
-    levels = one["image"].astype(int)
-    edge = maximum_filter(levels, 5) - minimum_filter(levels, 5) > 12
-    assert np.abs(levels - two["image"])[~edge].max() <= 12
-    assert (np.abs(levels - two["image"])[~edge] > 1).mean() <= 1e-4
+    # One code paints both, from the depth and labels that differ as above; a texture stretched
+    # over 1 mm less of depth moves by a few grey levels, an edge by more.
+    levels = np.abs(one["image"].astype(int) - two["image"])
+    assert (levels > 4).mean() <= 5e-4
 
 
 @pytest.mark.parametrize("backend", PRESENT)
@@ -122,8 +118,3 @@ def test_missing_backend_names_the_package(monkeypatch):
     with pytest.raises(MissingBackendError, match="libosmesa6") as caught:
         choose_backend("auto")
     assert caught.value.exit_status == 3
-
-
-def test_block_mean_rounds_halves_up():
-    fine = np.array([[0, 1, 10, 10], [1, 0, 10, 11]], dtype=np.uint8)
-    np.testing.assert_array_equal(block_mean(fine, 2), [[1, 10]])

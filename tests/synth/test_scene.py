@@ -5,11 +5,10 @@ import pytest
 
 from synth.camera import project
 from synth.errors import InputError
-from synth.light import brightness, light_scene
 from synth.scene import build_scene
 from synth.spec import SceneSpec
 from synth.spec.rocks import RocksSpec
-from synth.spec.view import CameraSpec, SunSpec
+from synth.spec.view import CameraSpec
 
 
 @pytest.mark.parametrize("preset", ["imp", "msl-navcam"])
@@ -51,21 +50,3 @@ def test_full_ground_is_one_line():
     with pytest.raises(InputError, match=r"rocks\.count: the ground in view is full") as caught:
         build_scene(spec, 0)
     assert "\n" not in str(caught.value)
-
-
-def test_level_ground_has_the_same_light_at_any_sun():
-    up = np.array([[0.0, 0.0, 1.0]])
-    values = [brightness(up, 0.5, SunSpec(elevation_deg=e))[0] for e in (30.0, 48.0, 90.0)]
-    # float32 steps by 6e-8.
-    np.testing.assert_allclose(values, 0.5 * 1.35, rtol=1e-6)
-
-
-def test_shadow_of_a_rock_starts_at_its_foot_and_points_from_the_sun():
-    sun = SunSpec(azimuth_deg=0.0, elevation_deg=45.0)
-    scene = build_scene(SceneSpec(rocks=RocksSpec(count=1, family="rounded-box")), 0)
-    stage = light_scene(scene, sun)
-    used = stage.shadows.vertices_m[np.unique(stage.shadows.faces)]
-    body = scene.rocks[0].mesh.vertices_m
-    # At 45 degrees the shadow of height z falls z away, towards −x.
-    assert used[:, 0].min() == pytest.approx((body[:, 0] - body[:, 2]).min(), abs=1e-9)
-    assert light_scene(scene, SunSpec(shadows=False)).shadows is None

@@ -1,0 +1,6 @@
+"""Light: what the camera sees of a scene under the sun and the sky."""
+
+from synth.light.lit import light_scene
+from synth.light.stage import Body, Stage
+
+__all__ = ["Body", "Stage", "light_scene"]

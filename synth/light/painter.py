@@ -1,0 +1,230 @@
+"""The painter: one image from the depth and labels of any backend, by deferred shading.
+
+A backend tells what each pixel shows and how far it is; the light there is worked out here, once
+for all backends, so their images differ no more than their geometry does.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from synth.camera import Camera, Pose
+from synth.light.photometry import EXPOSURE, SKY, light, towards_sun
+from synth.light.rays import Surfaces, directions
+from synth.light.shade import ShadowMap
+from synth.light.stage import Body
+from synth.light.texture import pattern, wrapped
+from synth.mesh import Floats
+from synth.spec.surface import SurfaceSpec
+from synth.spec.view import SunSpec
+
+Singles = NDArray[np.float32]
+Indices = NDArray[np.int64]
+
+_ON_PLANE = 3e-4  # of the depth: farther from the plane than this, a point is on something else
+_OFF_SURFACE_M = 1.5e-3  # a shadow ray starts this far out, above its own facet's bulge
+_EDGE = 12.0 / 255.0  # more contrast than this between neighbours is an edge
+_AT_ONCE = 1 << 20  # samples
+
+
+@dataclass(frozen=True, eq=False)
+class _Samples:
+    """Points of surfaces as the camera sees them."""
+
+    points_m: Singles  # (n, 3), in the world
+    normals: Singles  # (n, 3)
+    body: Indices  # (n,), rocks first, then the ground's bodies
+    directions: Singles  # (n, 3), from the eye, z-depth 1
+    footprint_m: Singles  # (n,), a sample's side on the surface
+
+
+class Painter:
+    """The light on a scene's bodies."""
+
+    def __init__(
+        self,
+        rocks: Sequence[Body],
+        ground: Sequence[Body],
+        plane_normal: Floats | None,
+        sun: SunSpec,
+        surface: SurfaceSpec,
+    ) -> None:
+        self.surfaces = Surfaces([*rocks, *ground])
+        self._bodies = [*rocks, *ground]
+        self._rocks = len(rocks)
+        self._sun, self._surface = sun, surface
+        self._plane = None if plane_normal is None else plane_normal.astype(np.float32)
+        self._towards_sun = towards_sun(sun).astype(np.float32)
+        self._albedo = np.array([body.albedo for body in self._bodies], dtype=np.float32)
+        turns = np.stack([body.model_to_world for body in self._bodies])
+        self._turns = turns.astype(np.float32)
+        self._origins_m = np.stack([body.position_m for body in self._bodies]).astype(np.float32)
+        level = plane_normal is not None
+        self._shadow_map = ShadowMap(
+            rocks if level else [], ground[1:] if level else [], towards_sun(sun)
+        )
+
+    def paint(
+        self,
+        camera: Camera,
+        pose: Pose,
+        labels: NDArray[np.uint16],
+        depth_m: Floats,
+        *,
+        supersample: int,
+    ) -> NDArray[np.uint8]:
+        """Return the image, (rows, cols), 255 for white.
+
+        Each pixel is shaded at its centre, its texture averaged over it. Where the light jumps,
+        at outlines, shadows and edges, a pixel is the mean of supersample² samples instead.
+        """
+        bright = np.empty(depth_m.shape, dtype=np.float32)
+        value = np.empty(depth_m.shape, dtype=np.float32)
+        step = max(1, _AT_ONCE // camera.width)
+        for start in range(0, camera.height, step):
+            band = slice(start, start + step)
+            bright[band], value[band] = self._centres(
+                camera, pose, labels[band], depth_m[band], start
+            )
+        if supersample > 1:
+            edges = np.flatnonzero(_jumps(bright, labels))
+            for part in np.array_split(edges, -(-len(edges) * supersample**2 // _AT_ONCE) or 1):
+                value.ravel()[part] = self._refined(camera, pose, part, supersample)
+        return np.asarray(np.rint(255.0 * np.clip(value, 0.0, 1.0)), dtype=np.uint8)
+
+    def _centres(
+        self,
+        camera: Camera,
+        pose: Pose,
+        labels: NDArray[np.uint16],
+        depth_m: Floats,
+        first_row: int,
+    ) -> tuple[Singles, Singles]:
+        """Return the light and the brightness of whole rows, sampled at the pixels' centres."""
+        rows = np.arange(first_row, first_row + len(depth_m), dtype=np.float32)[:, None]
+        columns = np.arange(camera.width, dtype=np.float32)[None, :]
+        rays = directions(camera, pose, columns, rows).reshape(-1, 3)
+        eye_m = pose.position_m().astype(np.float32)
+        depth = depth_m.astype(np.float32).ravel()
+        points_m = rays * depth[:, None] + eye_m
+        bright = np.full(depth.shape, np.float32(SKY))
+        value = bright.copy()
+        there = ~np.isnan(depth)
+        flat = self._on_plane(points_m, depth) & (labels.ravel() == 0) & there
+        here = np.flatnonzero(flat)
+        if self._plane is not None and len(here):
+            samples = _Samples(
+                points_m=points_m[here],
+                normals=np.broadcast_to(self._plane, (len(here), 3)),
+                body=np.full(len(here), self._rocks),
+                directions=rays[here],
+                footprint_m=_footprint_m(camera, depth[here], rays[here] @ self._plane),
+            )
+            bright[here], value[here] = self._shade(samples)
+        rest = np.flatnonzero(there & ~flat)
+        bright[rest], value[rest] = self._seen(camera, eye_m, rays[rest], 1)
+        return bright.reshape(depth_m.shape), value.reshape(depth_m.shape)
+
+    def _on_plane(self, points_m: Singles, depth: Singles) -> NDArray[np.bool_]:
+        if self._plane is None:
+            return np.zeros(len(points_m), dtype=bool)
+        if len(self._bodies) == self._rocks + 1:
+            return np.ones(len(points_m), dtype=bool)
+        return np.asarray(np.abs(points_m @ self._plane) < _ON_PLANE * depth)
+
+    def _refined(self, camera: Camera, pose: Pose, pixels: Indices, factor: int) -> Singles:
+        """Return the brightness of single pixels, each the mean of factor² samples."""
+        rows, columns = np.divmod(pixels, camera.width)
+        offsets = (np.arange(factor, dtype=np.float32) + 0.5) / factor - 0.5
+        down, across = (offset.ravel() for offset in np.meshgrid(offsets, offsets, indexing="ij"))
+        rays = directions(
+            camera,
+            pose,
+            (columns[:, None] + across).astype(np.float32),
+            (rows[:, None] + down).astype(np.float32),
+        )
+        eye_m = pose.position_m().astype(np.float32)
+        _, value = self._seen(camera, eye_m, rays.reshape(-1, 3), factor)
+        return np.asarray(np.clip(value, 0.0, 1.0).reshape(len(pixels), -1).mean(axis=1))
+
+    def _seen(
+        self, camera: Camera, eye_m: Singles, rays: Singles, factor: int
+    ) -> tuple[Singles, Singles]:
+        """Return the light and the brightness at the end of rays from the eye."""
+        bright = np.full(len(rays), np.float32(SKY))
+        value = bright.copy()
+        hits = self.surfaces.trace(np.broadcast_to(eye_m, rays.shape).copy(), rays)
+        here = np.flatnonzero(hits.body >= 0)
+        if not len(here):
+            return bright, value
+        normals = self.surfaces.normals_at(hits, here)
+        facing = np.einsum("ij,ij->i", rays[here], normals)
+        samples = _Samples(
+            points_m=rays[here] * hits.length[here, None] + eye_m,
+            normals=normals,
+            body=hits.body[here],
+            directions=rays[here],
+            footprint_m=_footprint_m(camera, hits.length[here], facing) / np.float32(factor),
+        )
+        bright[here], value[here] = self._shade(samples)
+        return bright, value
+
+    def _shade(self, samples: _Samples) -> tuple[Singles, Singles]:
+        """Return the light on samples and their brightness, each (n,)."""
+        normals = samples.normals
+        incidence = np.asarray(normals @ self._towards_sun)
+        if self._sun.shadows:
+            tried = np.flatnonzero((incidence > 0.0) & self._shadow_map.possible(samples.points_m))
+            starts_m = samples.points_m[tried] + np.float32(_OFF_SURFACE_M) * normals[tried]
+            shaded = tried[self.surfaces.blocked(starts_m, self._towards_sun)]
+            incidence[shaded] = 0.0
+        facing = np.einsum("ij,ij->i", samples.directions, normals)
+        emission = -facing / np.linalg.norm(samples.directions, axis=1)
+        bright = light(normals[:, 2], incidence, emission, self._sun, self._surface)
+        return bright, np.float32(EXPOSURE) * bright * self._painted(samples)
+
+    def _painted(self, samples: _Samples) -> Singles:
+        """Return the albedo at samples, (n,): the body's, its texture, and dust on what faces up.
+
+        ρ = ρ_body (1 + contrast × texture); dust of the ground's albedo covers the share
+        dust × (n_z − 0.4)/0.6 of a rock, between 0 and 1.
+        """
+        surface = self._surface
+        albedo = self._albedo[samples.body]
+        rocky = np.flatnonzero(samples.body < self._rocks)
+        if surface.dust > 0.0:
+            cover = surface.dust * np.clip((samples.normals[rocky, 2] - 0.4) / 0.6, 0.0, 1.0)
+            albedo[rocky] += cover * (np.float32(surface.ground_albedo) - albedo[rocky])
+        if surface.contrast == 0.0:
+            return albedo
+        texture = np.empty(len(albedo), dtype=np.float32)
+        earthy = np.flatnonzero(samples.body >= self._rocks)
+        ground_m = samples.points_m[earthy]
+        texture[earthy] = pattern(ground_m[:, 0], ground_m[:, 1], samples.footprint_m[earthy])
+        turns = self._turns[samples.body[rocky]]
+        arms_m = samples.points_m[rocky] - self._origins_m[samples.body[rocky]]
+        # Rocks of one shape are painted with different parts of the tile.
+        apart_m = np.float32(0.37) * samples.body[rocky, None].astype(np.float32)
+        texture[rocky] = wrapped(
+            np.einsum("nij,ni->nj", turns, arms_m) + apart_m,
+            np.einsum("nij,ni->nj", turns, samples.normals[rocky]),
+            samples.footprint_m[rocky],
+        )
+        return np.asarray(albedo * np.maximum(1.0 + np.float32(surface.contrast) * texture, 0.1))
+
+
+def _footprint_m(camera: Camera, depth: Singles, facing: Singles) -> Singles:
+    """Return a pixel's side on a surface, (n,): the geometric mean of its height and width."""
+    slant = np.sqrt(np.maximum(-facing, 0.02))
+    return np.asarray(depth / np.float32(np.sqrt(camera.fx * camera.fy)) / slant)
+
+
+def _jumps(bright: Singles, labels: NDArray[np.uint16]) -> NDArray[np.bool_]:
+    """Tell which pixels differ clearly from a neighbour, in light or in label."""
+    box = np.ones((3, 3), dtype=np.uint8)
+    spread = cv2.dilate(bright, box) - cv2.erode(bright, box)
+    apart = cv2.dilate(labels, box) != cv2.erode(labels, box)
+    return np.asarray((spread > _EDGE) | apart)

@@ -1,0 +1,70 @@
+"""Paths: where the camera stops, and what it looks at from there."""
+
+import numpy as np
+
+from synth.camera import PRESETS, Camera, Floats, Pose, look_at
+from synth.spec.view import CameraSpec, ViewsSpec
+
+
+def camera_of(spec: CameraSpec) -> Camera:
+    """Return the preset's camera with the spec's lens."""
+    camera = PRESETS[spec.preset].camera
+    if not any(spec.distortion):
+        return camera
+    return Camera(
+        camera.fx,
+        camera.fy,
+        camera.cx,
+        camera.cy,
+        camera.width,
+        camera.height,
+        distortion=spec.distortion,
+    )
+
+
+def camera_distance_m(spec: CameraSpec) -> float:
+    """Return the camera's distance from the scene's centre, on a drive-by the least one."""
+    return PRESETS[spec.preset].distance_m if spec.distance_m is None else spec.distance_m
+
+
+def stations(camera: CameraSpec, views: ViewsSpec) -> list[Pose]:
+    """Return the poses of a scene's views."""
+    return [
+        look_at(place_m, np.array(camera.target_m), roll_rad=np.deg2rad(camera.roll_deg))
+        for place_m in _places_m(camera, views)
+    ]
+
+
+def ring(*, count: int, distance_m: float, elevation_rad: float, start_rad: float) -> list[Pose]:
+    """Return `count` poses evenly round the vertical through the origin, all looking at it."""
+    azimuths_rad = start_rad + 2.0 * np.pi * np.arange(count) / count
+    return [
+        look_at(place, np.zeros(3)) for place in _round(azimuths_rad, distance_m, elevation_rad)
+    ]
+
+
+def _places_m(camera: CameraSpec, views: ViewsSpec) -> Floats:
+    """Return the stations, (n, 3)."""
+    distance_m, elevation_rad = camera_distance_m(camera), np.deg2rad(camera.elevation_deg)
+    start_rad = np.deg2rad(views.start_deg)
+    if views.path == "ring":
+        azimuths_rad = start_rad + 2.0 * np.pi * np.arange(views.count) / views.count
+        return _round(azimuths_rad, distance_m, elevation_rad)
+    shares = np.linspace(-0.5, 0.5, views.count) if views.count > 1 else np.zeros(1)
+    if views.path == "arc":
+        return _round(start_rad + np.deg2rad(views.arc_deg) * shares, distance_m, elevation_rad)
+    middle_m = _round(np.array([start_rad]), distance_m, elevation_rad)
+    heading = np.array([-np.sin(start_rad), np.cos(start_rad), 0.0])
+    return np.asarray(middle_m + views.length_m * shares[:, None] * heading)
+
+
+def _round(azimuths_rad: Floats, distance_m: float, elevation_rad: float) -> Floats:
+    """Return places at one distance and elevation from the origin, (n, 3)."""
+    level_m, height_m = distance_m * np.cos(elevation_rad), distance_m * np.sin(elevation_rad)
+    return np.column_stack(
+        [
+            level_m * np.cos(azimuths_rad),
+            level_m * np.sin(azimuths_rad),
+            np.full(len(azimuths_rad), height_m),
+        ]
+    )

@@ -1,0 +1,60 @@
+"""Rock populations by Golombek and Rapp: how many rocks of which diameter."""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import exp1
+
+from synth.errors import InputError
+from synth.spec.population import PopulationSpec
+
+Floats = NDArray[np.float64]
+
+MOST_ROCKS = 999  # in one scene, as object ids allow
+_TABLE = 4000  # diameters at which the counts are tabulated
+
+
+def decay_per_m(k: float) -> float:
+    """Return q = 1.79 + 0.152/k (Golombek and Rapp 1997)."""
+    return 1.79 + 0.152 / k
+
+
+def covered_share(diameter_m: float, k: float) -> float:
+    """Return F(D) = k exp(−q D), the share of the ground that rocks of at least D cover."""
+    return float(k * np.exp(-decay_per_m(k) * diameter_m))
+
+
+def number_per_m2(diameter_m: Floats | float, k: float) -> Floats:
+    """Return the number of rocks of at least D on a square metre.
+
+    The density n(D) = q F(D)/(πD²/4) integrated from D on, N(D) = (4qk/π)(e^(−qD)/D − q E₁(qD)).
+    """
+    q = decay_per_m(k)
+    diameter = np.asarray(diameter_m, dtype=np.float64)
+    return np.asarray(
+        4.0 * q * k / np.pi * (np.exp(-q * diameter) / diameter - q * exp1(q * diameter))
+    )
+
+
+def expected_count(spec: PopulationSpec) -> float:
+    """Return the mean number of rocks between d_min_m and d_max_m on the disc."""
+    ends = number_per_m2(np.array([spec.d_min_m, spec.d_max_m]), spec.k)
+    return float((ends[0] - ends[1]) * np.pi * spec.radius_m**2)
+
+
+def draw_diameters_m(spec: PopulationSpec, *, rng: np.random.Generator) -> Floats:
+    """Return the diameters of a Poisson number of rocks, (n,), longest first.
+
+    Raises:
+        InputError: more rocks are expected than a scene can hold, or none came.
+    """
+    mean = expected_count(spec)
+    count = int(rng.poisson(mean)) if mean <= MOST_ROCKS else MOST_ROCKS + 1
+    if not 0 < count <= MOST_ROCKS:
+        raise InputError(
+            f"population.d_min_m: expected 1 to {MOST_ROCKS} rocks on a disc of "
+            f"{spec.radius_m:g} m, found {mean:.3g} on average"
+        )
+    table_m = np.geomspace(spec.d_max_m, spec.d_min_m, _TABLE)  # rising number
+    numbers = number_per_m2(table_m, spec.k)
+    drawn = rng.uniform(numbers[0], numbers[-1], size=count)
+    return np.sort(np.interp(drawn, numbers, table_m))[::-1]

@@ -1,0 +1,17 @@
+"""The knobs of what surfaces do with light."""
+
+from typing import Annotated, Literal
+
+from msgspec import Meta, Struct
+
+from synth.spec.limits import Fraction, Ratio
+
+
+class SurfaceSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """Albedo, dust and the photometric law of ground and rocks; see docs/scenes.md."""
+
+    law: Literal["lambert", "lommel-seeliger", "lunar-lambert"] = "lambert"
+    lunar_share: Fraction = 0.6  # of Lommel–Seeliger in lunar-lambert
+    contrast: Annotated[float, Meta(ge=0, le=0.5)] = 0.11  # RMS of the texture over the albedo
+    ground_albedo: Ratio = 0.55
+    dust: Fraction = 0.0  # share of a level top that dust of the ground's albedo covers

@@ -110,7 +110,6 @@ def look_at(position_m: Floats, target_m: Floats, *, roll_rad: float = 0.0) -> P
     """Return the pose at a position that has the target on its axis, rolled from a level horizon.
 
     A roll turns the camera clockwise about its axis, so the image turns anticlockwise.
-
     Straight up or down the horizon is undefined; the image's right is then the world's x.
     """
     forward = target_m - position_m
@@ -130,8 +129,8 @@ def project(camera: Camera, points_m: Floats) -> Floats:
     """Return pixels (column, row), (..., 2), of camera-frame points (..., 3) in front of it."""
     across = points_m[..., 0] / points_m[..., 2]
     down = points_m[..., 1] / points_m[..., 2]
-    across, down = distorted(camera, across, down)
-    return np.stack([camera.fx * across + camera.cx, camera.fy * down + camera.cy], axis=-1)
+    x, y = distorted(camera, across, down)
+    return np.stack([camera.fx * x + camera.cx, camera.fy * y + camera.cy], axis=-1)
 
 
 def distorted(camera: Camera, across: Reals, down: Reals) -> tuple[Reals, Reals]:

@@ -16,7 +16,9 @@ EXPOSURE = 1.35  # brightness of a white level surface under the whole light
 SKY = 0.75  # brightness of the sky itself
 BOUNCE = 0.4  # share of the sky's light that a surface facing down gets back from the ground
 _LEAST_SINE = 0.3  # the exposure follows the sun down to this sine of its elevation
-_USUAL_EMISSION = np.cos(np.deg2rad(45.0))  # level ground seen at this angle has E ρ
+_USUAL_EMISSION = np.cos(
+    np.deg2rad(80.0)
+)  # level ground seen at this angle has E ρ; most is darker
 
 
 def towards_sun(sun: SunSpec) -> Floats:
@@ -52,7 +54,7 @@ def light(
 ) -> Singles:
     """Return the brightness of white surfaces, (n,), 1 for level ground in the sun.
 
-    k (1 − β(1 − n_z)/2) + (1 − k) R(μ₀, μ)/R(s_z, cos 45°): k the sky's share, β what the ground
+    k (1 − β(1 − n_z)/2) + (1 − k) R(μ₀, μ)/R(s_z, cos 80°): k the sky's share, β what the ground
     does not give back, `upward` n_z, R the law of `reflected`; μ₀ is 0 in shadow. s_z counts as
     0.3 at least, so that a low sun does not overexpose what faces it.
     """

@@ -68,7 +68,7 @@ def _field(rocks: int) -> SceneSpec:
     one_m = expected_count(PopulationSpec(**population, radius_m=1.0))
     table = {
         "population": {**population, "radius_m": float(np.sqrt(rocks / one_m))},
-        "rocks": {"family": "perturbed", "series": "random"},
+        "rocks": {"family": "rounded-polyhedron", "series": "random"},
         "camera": {"preset": "mer-navcam", "distance_m": 9.0, "elevation_deg": 25.0},
         "views": {"count": 2},
     }

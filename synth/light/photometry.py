@@ -15,7 +15,7 @@ Reals = NDArray[np.floating[Any]]
 EXPOSURE = 1.35  # brightness of a white level surface under the whole light
 SKY = 0.75  # brightness of the sky itself
 BOUNCE = 0.4  # share of the sky's light that a surface facing down gets back from the ground
-_LEAST_SINE = 0.3  # the exposure follows the sun down to this sine of its elevation
+_LEAST_SINE = 0.5  # the exposure follows the sun down to this sine of its elevation
 _USUAL_EMISSION = np.cos(
     np.deg2rad(80.0)
 )  # level ground seen at this angle has E ρ; most is darker
@@ -56,7 +56,7 @@ def light(
 
     k (1 − β(1 − n_z)/2) + (1 − k) R(μ₀, μ)/R(s_z, cos 80°): k the sky's share, β what the ground
     does not give back, `upward` n_z, R the law of `reflected`; μ₀ is 0 in shadow. s_z counts as
-    0.3 at least, so that a low sun does not overexpose what faces it.
+    0.5 at least, so that a low sun does not overexpose what faces it.
     """
     share = lunar_share(surface)
     height = np.array(max(towards_sun(sun)[2], _LEAST_SINE))

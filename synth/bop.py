@@ -25,8 +25,10 @@ def object_id(scene: int, instance: int) -> int:
 
 
 def camera_table(camera: Camera, depth_scale: float) -> Table:
-    """Return camera.json."""
+    """Return camera.json; `distortion` only where the lens has one."""
+    lens = {} if camera.distortion is None else {"distortion": camera.distortion}
     return {
+        **lens,
         "fx": camera.fx,
         "fy": camera.fy,
         "cx": camera.cx,

@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synth import bop
-from synth.camera import PRESETS
 from synth.files import read_json, sha256, write_json, write_ply_mm, write_png
 from synth.light import light_scene
+from synth.paths import camera_distance_m, camera_of
 from synth.render import open_renderer, render_view
 from synth.render.view import View
-from synth.scene import Scene, build_scene, camera_distance_m
+from synth.scene import Scene, build_scene
 from synth.spec import RendererName, SceneSpec
 
 PARTIAL = ".partial"  # folder of scenes that are not whole yet, gone when the dataset is
@@ -36,13 +36,15 @@ def depth_scale_mm(spec: SceneSpec) -> float:
     ring's common field, whose far edge is the ground seen along the frame's top. The nearer bound
     counts, and is spread over 65,535 steps, rounded up to a hundredth of a millimetre.
     """
-    camera = PRESETS[spec.camera.preset].camera
+    camera = camera_of(spec.camera)
     distance_m = camera_distance_m(spec.camera)
     elevation_rad = np.deg2rad(spec.camera.elevation_deg)
     reach_m = distance_m + 2.0 * spec.rocks.diameter_m[1]
     if spec.views.count > 1:
         half_field = max(camera.width / camera.fx, camera.height / camera.fy) / 2.0
         reach_m = min(reach_m, distance_m * half_field * 1.5 + spec.rocks.diameter_m[1])
+    if spec.population.kind != "count":
+        reach_m = spec.population.radius_m + spec.population.d_max_m
     farthest_mm = 1000.0 * (distance_m + reach_m * np.cos(elevation_rad))
     return float(np.ceil(farthest_mm / 65535.0 * 100.0) / 100.0)
 
@@ -82,7 +84,7 @@ def encode_depth(depth_m: NDArray[np.float64], scale_mm: float) -> NDArray[np.ui
 
 def write_common(spec: SceneSpec, backend: RendererName, out: Path) -> None:
     """Write camera.json, models_info.json and manifest.json once all scenes are whole."""
-    camera = PRESETS[spec.camera.preset].camera
+    camera = camera_of(spec.camera)
     write_json(out / "camera.json", bop.camera_table(camera, depth_scale_mm(spec)))
     models: dict[str, Any] = {}
     for index in range(spec.scenes):

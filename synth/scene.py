@@ -16,8 +16,6 @@ from synth.resting import buried_fraction, settle, shortest_turn
 from synth.rocks import Rock, quarry
 from synth.spec import SceneSpec
 
-__all__ = ["PlacedRock", "Scene", "build_scene", "camera_distance_m", "camera_of"]
-
 _LYING, _GROUND, _POPULATION = 1, 2, 3  # children of the scene's seed
 _ROOM_M = 0.4  # kept free of a population's rocks round the foot of each station
 _FOOT = 0.15  # vertices in this lowest share of a rock's height are its foot

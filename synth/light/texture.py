@@ -13,6 +13,7 @@ TEXEL_M = 0.002
 _LONGEST = 64  # texels of the longest wave: shorter than the tile, or its repetition would show
 _LEVELS = 8
 _COARSER = 7.3  # the tile is laid a second time, this much larger
+_COARSER_OCTAVES = 3
 _TURN_RAD = 0.6  # and turned, so that the two never repeat together
 _ROW = 1 << 12  # cv2.remap takes images, so long lists of places are folded into rows
 
@@ -45,12 +46,13 @@ def pattern(across_m: Singles, along_m: Singles, footprint_m: Singles) -> Single
     """
     cosine, sine = np.float32(np.cos(_TURN_RAD)), np.float32(np.sin(_TURN_RAD))
     scale = np.float32(1.0 / TEXEL_M)
-    fine = _tile(across_m * scale, along_m * scale, footprint_m * scale)
+    octave = np.rint(np.log2(np.maximum(footprint_m * scale, 1.0))).astype(np.int8)
+    fine = _tile(across_m * scale, along_m * scale, np.minimum(octave, _LEVELS - 1))
     scale = np.float32(1.0 / (TEXEL_M * _COARSER))
     coarse = _tile(
         (cosine * across_m - sine * along_m) * scale,
         (sine * across_m + cosine * along_m) * scale,
-        footprint_m * scale,
+        np.clip(octave - _COARSER_OCTAVES, 0, _LEVELS - 1),
     )
     return np.asarray(np.float32(0.95) * fine + np.float32(0.3) * coarse)
 
@@ -73,9 +75,8 @@ def wrapped(points_m: Singles, normals: Singles, footprint_m: Singles) -> Single
     return total
 
 
-def _tile(u: Singles, v: Singles, footprint: Singles) -> Singles:
-    """Return the tile at places in texels, each from the level that suits its footprint."""
-    level = np.clip(np.rint(np.log2(np.maximum(footprint, 1.0))), 0, _LEVELS - 1).astype(np.uint8)
+def _tile(u: Singles, v: Singles, level: NDArray[np.int8]) -> Singles:
+    """Return the tile at places in texels, each from its level."""
     found = np.empty(len(u), dtype=np.float32)
     counts = np.bincount(level, minlength=_LEVELS)
     for number in np.flatnonzero(counts):

@@ -67,25 +67,29 @@ def scene_gt(scene: Scene, index: int) -> Table:
     }
 
 
-def scene_gt_info(views: Sequence[View]) -> Table:
-    """Return scene_gt_info.json: boxes and pixel counts; an unseen rock's visible box is −1."""
+def scene_gt_info(views: Sequence[View], valid: Sequence[NDArray[np.bool_]]) -> Table:
+    """Return scene_gt_info.json: boxes and pixel counts; an unseen rock's visible box is −1.
+
+    `valid` tells for each view where the depth image holds a depth.
+    """
     return {
         str(number): [
-            _info(view, instance, silhouette)
+            _info(silhouette, view.labels == instance + 1, known)
             for instance, silhouette in enumerate(view.silhouettes)
         ]
-        for number, view in enumerate(views)
+        for number, (view, known) in enumerate(zip(views, valid, strict=True))
     }
 
 
-def _info(view: View, instance: int, silhouette: NDArray[np.bool_]) -> Table:
-    visible = view.labels == instance + 1
+def _info(
+    silhouette: NDArray[np.bool_], visible: NDArray[np.bool_], known: NDArray[np.bool_]
+) -> Table:
     count_all, count_visible = int(silhouette.sum()), int(visible.sum())
     return {
         "bbox_obj": _box(silhouette),
         "bbox_visib": _box(visible),
         "px_count_all": count_all,
-        "px_count_valid": int((silhouette & ~np.isnan(view.depth_m)).sum()),
+        "px_count_valid": int((silhouette & known).sum()),
         "px_count_visib": count_visible,
         "visib_fract": count_visible / count_all if count_all else 0.0,
     }

@@ -9,13 +9,16 @@ import msgspec
 
 from synth.errors import InputError
 from synth.generate import generate_dataset
+from synth.replay import replay_dataset
 from synth.shapes import SERIES, write_series
 from synth.spec import RendererName, SceneSpec, convert_spec, load_spec
+from synth.spec.sensor import NoiseKind
 from synth.spec.view import PresetName
 
 HELP = "make rocks of known shape: rendered scenes, or drawn shapes, with their truth"
 
 _MAX_SEED = 2**63
+_SPEC_OPTIONS = ("spec", "seed", "scenes", "rocks", "views", "camera", "renderer", "noise")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -30,8 +33,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     scene.add_argument("--views", metavar="N", type=int, help="camera stations round a scene")
     scene.add_argument("--camera", metavar="PRESET", help=_listed(get_args(PresetName)))
     scene.add_argument("--renderer", metavar="NAME", help=_listed(get_args(RendererName)))
-    scene.add_argument("--noise", metavar="KIND", help="the range sensor's errors: none")
+    scene.add_argument("--noise", metavar="KIND", help=f"the range: {_listed(get_args(NoiseKind))}")
     scene.add_argument("--jobs", metavar="N", type=int, default=1, help="processes (default 1)")
+    scene.add_argument(
+        "--replay", metavar="MANIFEST.json", type=Path, help="make a dataset again, compare hashes"
+    )
     shapes = kinds.add_parser("shapes", help="a row of drawn shapes: image, labels, truth")
     shapes.add_argument("out", metavar="OUT", type=Path, help="folder of the drawing")
     shapes.add_argument("--series", metavar="NAME", required=True, help=_listed(tuple(SERIES)))
@@ -45,6 +51,7 @@ def run(args: argparse.Namespace) -> int:
     Raises:
         InputError: an argument or a spec that cannot be used.
         MissingBackendError: the machine lacks the renderer.
+        ReplayError: a dataset made again is not the same.
     """
     if args.kind == "shapes":
         if args.seed < 0:
@@ -53,15 +60,29 @@ def run(args: argparse.Namespace) -> int:
         return 0
     if args.jobs < 1:
         raise InputError(f"--jobs: expected 1 or more, found {args.jobs}")
+    if args.replay is not None:
+        _refuse_beside_replay(args)
+        print(replay_dataset(args.replay, args.out, jobs=args.jobs, show_progress=True))
+        return 0
     generate_dataset(_spec(args), args.out, jobs=args.jobs, show_progress=True)
     return 0
+
+
+def _refuse_beside_replay(args: argparse.Namespace) -> None:
+    """Refuse options that would describe another dataset than the manifest's."""
+    for option in _SPEC_OPTIONS:
+        if getattr(args, option) is not None:
+            raise InputError(
+                f"--{option}: expected none beside --replay, whose manifest holds the spec, "
+                f"found {getattr(args, option)}"
+            )
 
 
 def _spec(args: argparse.Namespace) -> SceneSpec:
     """Return the spec of the file, or the default one, with the options laid over it."""
     _require("--camera", args.camera, get_args(PresetName))
     _require("--renderer", args.renderer, get_args(RendererName))
-    _require("--noise", args.noise, ("none",))
+    _require("--noise", args.noise, get_args(NoiseKind))
     for option in ("scenes", "rocks", "views"):
         value = getattr(args, option)
         if value is not None and value < 1:

@@ -1,5 +1,6 @@
 """The dataset's folder: one scene at a time, whole or not at all, then what belongs to all."""
 
+import os
 import shutil
 from importlib.metadata import version
 from pathlib import Path
@@ -11,11 +12,14 @@ from numpy.typing import NDArray
 
 from synth import bop
 from synth.files import read_json, sha256, write_json, write_ply_mm, write_png
+from synth.glb import scene_glb
 from synth.light import light_scene
 from synth.paths import camera_distance_m, camera_of
 from synth.render import open_renderer, render_view
 from synth.render.view import View
 from synth.scene import Scene, build_scene
+from synth.sensor import Capture, capture_view
+from synth.sheet import write_contact_sheet
 from synth.spec import RendererName, SceneSpec
 
 PARTIAL = ".partial"  # folder of scenes that are not whole yet, gone when the dataset is
@@ -53,27 +57,45 @@ def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -
     """Make, render and write one scene; return its folder's name.
 
     This is the unit of work: it needs nothing but its arguments and may run in any process. The
-    scene is written apart and renamed into place when whole, after its models.
+    scene is written apart, in a folder of this process's own, and renamed into place when whole,
+    after its models: a process that outlives its run disturbs no other.
     """
     scene = build_scene(spec, index)
     stage = light_scene(scene, spec.sun, spec.surface)
     renderer = open_renderer(backend, stage, scene.camera)
     scale_mm = depth_scale_mm(spec)
-    folder = out / PARTIAL / scene_name(index)
+    folder = out / PARTIAL / f"{scene_name(index)}.{os.getpid()}"
     shutil.rmtree(folder, ignore_errors=True)
-    for name in ("gray", "depth", "labels", "mask", "mask_visib", "models"):
+    for name in (*_picture_folders(spec), "labels", "mask", "mask_visib", "models"):
         (folder / name).mkdir(parents=True)
-    views = []
+    views, valid = [], []
     for number, pose in enumerate(scene.poses):
         view = render_view(renderer, stage, scene.camera, pose, supersample=spec.camera.supersample)
-        _write_view(folder, number, view, scale_mm)
+        capture = capture_view(
+            view,
+            pose,
+            spec=spec,
+            scene=index,
+            number=number,
+            camera=scene.camera,
+            stage=stage,
+            renderer=renderer,
+        )
+        depth = encode_depth(capture.depth_m, scale_mm)
+        _write_pictures(folder, number, capture, depth)
+        if spec.noise.kind != "none":
+            exact = encode_depth(view.depth_m, scale_mm)
+            write_png(folder / "depth_true" / f"{number:06d}.png", exact)
+        _write_masks(folder, number, view)
         views.append(view)
-    _write_tables(folder, scene, index, views, scale_mm)
+        valid.append(depth > 0)
+    _write_tables(folder, scene, index, views, valid=valid, scale_mm=scale_mm)
+    (folder / "scene.glb").write_bytes(scene_glb(stage))
     for instance, placed in enumerate(scene.rocks):
         name = f"obj_{bop.object_id(index, instance):06d}.ply"
         write_ply_mm(folder / "models" / name, placed.rock.mesh)
-    _publish(folder, out)
-    return folder.name
+    _publish(folder, out, index)
+    return scene_name(index)
 
 
 def encode_depth(depth_m: NDArray[np.float64], scale_mm: float) -> NDArray[np.uint16]:
@@ -83,7 +105,7 @@ def encode_depth(depth_m: NDArray[np.float64], scale_mm: float) -> NDArray[np.ui
 
 
 def write_common(spec: SceneSpec, backend: RendererName, out: Path) -> None:
-    """Write camera.json, models_info.json and manifest.json once all scenes are whole."""
+    """Write camera.json, models_info.json, the contact sheet and, last, the manifest."""
     camera = camera_of(spec.camera)
     write_json(out / "camera.json", bop.camera_table(camera, depth_scale_mm(spec)))
     models: dict[str, Any] = {}
@@ -91,13 +113,24 @@ def write_common(spec: SceneSpec, backend: RendererName, out: Path) -> None:
         for rock in read_json(out / scene_name(index) / "scene_gt_shape.json")["rocks"]:
             models[str(rock["obj_id"])] = rock["model_mm"]
     write_json(out / "models" / "models_info.json", models)
-    paths = sorted(
-        path.relative_to(out).as_posix()
-        for path in out.rglob("*")
-        if path.is_file() and path != out / "manifest.json"
-    )
-    manifest = {**identity(spec, backend), "files": {path: sha256(out / path) for path in paths}}
-    write_json(out / "manifest.json", manifest)
+    scenes = [out / scene_name(index) for index in range(spec.scenes)]
+    write_contact_sheet(out / "contact_sheet.png", scenes)
+    manifest = {**identity(spec, backend), "files": file_digests(out)}
+    draft = out / "manifest.draft"
+    write_json(draft, manifest)
+    draft.replace(out / "manifest.json")
+
+
+def file_digests(out: Path) -> dict[str, str]:
+    """Return the SHA-256 of every file of a dataset but its manifest, by path in rising order."""
+    paths = (path for path in out.rglob("*") if path.is_file())
+    names = sorted(path.relative_to(out).as_posix() for path in paths)
+    own = ("manifest.json", "manifest.draft")
+    return {
+        name: sha256(out / name)
+        for name in names
+        if name not in own and not name.startswith(f"{PARTIAL}/")
+    }
 
 
 def identity(spec: SceneSpec, backend: RendererName) -> dict[str, Any]:
@@ -111,10 +144,22 @@ def identity(spec: SceneSpec, backend: RendererName) -> dict[str, Any]:
     }
 
 
-def _write_view(folder: Path, number: int, view: View, scale_mm: float) -> None:
+def _picture_folders(spec: SceneSpec) -> tuple[str, ...]:
+    """Return the folders of a scene's pictures: what the sensor has, and what is true beside it."""
+    names = {"none": (), "stereo": ("depth_true",), "sgm": ("depth_true", "gray_right")}
+    return ("gray", "depth", *names[spec.noise.kind])
+
+
+def _write_pictures(folder: Path, number: int, capture: Capture, depth: NDArray[np.uint16]) -> None:
+    name = f"{number:06d}.png"
+    write_png(folder / "gray" / name, capture.picture)
+    write_png(folder / "depth" / name, depth)
+    if capture.right_picture is not None:
+        write_png(folder / "gray_right" / name, capture.right_picture)
+
+
+def _write_masks(folder: Path, number: int, view: View) -> None:
     stem = f"{number:06d}"
-    write_png(folder / "gray" / f"{stem}.png", view.image)
-    write_png(folder / "depth" / f"{stem}.png", encode_depth(view.depth_m, scale_mm))
     write_png(folder / "labels" / f"{stem}.png", view.labels)
     for instance, silhouette in enumerate(view.silhouettes):
         name = f"{stem}_{instance:06d}.png"
@@ -124,20 +169,26 @@ def _write_view(folder: Path, number: int, view: View, scale_mm: float) -> None:
 
 
 def _write_tables(
-    folder: Path, scene: Scene, index: int, views: list[View], scale_mm: float
+    folder: Path,
+    scene: Scene,
+    index: int,
+    views: list[View],
+    *,
+    valid: list[NDArray[np.bool_]],
+    scale_mm: float,
 ) -> None:
     write_json(folder / "scene_camera.json", bop.scene_camera(scene, scale_mm))
     write_json(folder / "scene_gt.json", bop.scene_gt(scene, index))
-    write_json(folder / "scene_gt_info.json", bop.scene_gt_info(views))
+    write_json(folder / "scene_gt_info.json", bop.scene_gt_info(views, valid))
     write_json(folder / "scene_gt_coco.json", bop.scene_gt_coco(scene, index, views))
     write_json(folder / "scene_gt_shape.json", bop.scene_gt_shape(scene, index, views))
 
 
-def _publish(folder: Path, out: Path) -> None:
+def _publish(folder: Path, out: Path, index: int) -> None:
     """Move a whole scene into place: its models first, the folder's renaming seals it."""
     models = out / "models"
     models.mkdir(exist_ok=True)
     for path in sorted((folder / "models").iterdir()):
         path.replace(models / path.name)
     (folder / "models").rmdir()
-    folder.replace(out / folder.name)
+    folder.replace(out / scene_name(index))

@@ -11,3 +11,9 @@ class MissingBackendError(RuntimeError):
     """A renderer that this machine lacks: the message names the package to install."""
 
     exit_status = 3
+
+
+class ReplayError(RuntimeError):
+    """A dataset made again that is not the same: the message names the first differing file."""
+
+    exit_status = 1

@@ -19,9 +19,16 @@ from synth.spec import RendererName, SceneSpec
 
 
 def generate_dataset(
-    spec: SceneSpec, out: Path, *, jobs: int = 1, show_progress: bool = False
+    spec: SceneSpec,
+    out: Path,
+    *,
+    jobs: int = 1,
+    show_progress: bool = False,
+    backend: RendererName | None = None,
 ) -> None:
     """Write the dataset of a spec into a folder; scenes that are whole already are kept.
+
+    `backend` takes the place of the spec's renderer, whose name the manifest keeps.
 
     The same spec gives the same bytes, whatever the number of processes and however often the run
     was interrupted. Rendering takes place in fresh processes, one scene at a time in each.
@@ -33,18 +40,18 @@ def generate_dataset(
     """
     if jobs < 1:
         raise InputError(f"jobs: expected at least 1, found {jobs}")
-    backend = _claim(spec, out)
+    backend = _claim(spec, out, backend or spec.renderer)
     missing = [index for index in range(spec.scenes) if not (out / scene_name(index)).is_dir()]
     if not missing and (out / "manifest.json").is_file():
         shutil.rmtree(out / PARTIAL, ignore_errors=True)
         return
     if missing:
         _render_scenes(spec, missing, backend, out, jobs=jobs, show_progress=show_progress)
-    shutil.rmtree(out / PARTIAL)
     write_common(spec, backend, out)
+    shutil.rmtree(out / PARTIAL, ignore_errors=True)
 
 
-def _claim(spec: SceneSpec, out: Path) -> RendererName:
+def _claim(spec: SceneSpec, out: Path, renderer: RendererName) -> RendererName:
     """Make sure that `out` is free or holds this very dataset; return the backend to use.
 
     A run leaves its identity beside its unfinished scenes from the start, so that the next can
@@ -56,13 +63,13 @@ def _claim(spec: SceneSpec, out: Path) -> RendererName:
     if begun is None:
         if out.is_dir() and any(path.name != PARTIAL for path in out.iterdir()):
             raise InputError(f"{out}: expected an empty folder or a dataset, found other files")
-        backend = choose_backend(spec.renderer)
+        backend = choose_backend(renderer)
         build_scene(spec, 0)
         _begin(spec, backend, out)
         return backend
     found = read_json(begun)
     recorded = found.get("backend")
-    wanted = recorded if spec.renderer == "auto" and recorded in BACKENDS else spec.renderer
+    wanted = recorded if renderer == "auto" and recorded in BACKENDS else renderer
     backend = choose_backend(wanted)
     ours = plain(identity(spec, backend))
     differing = [key for key in ours if found.get(key) != ours[key]]

@@ -75,8 +75,8 @@ class Painter:
         depth_m: Floats,
         *,
         supersample: int,
-    ) -> NDArray[np.uint8]:
-        """Return the image, (rows, cols), 255 for white.
+    ) -> Singles:
+        """Return the brightness, (rows, cols), 1 for white; what is brighter is more.
 
         Each pixel is shaded at its centre, its texture averaged over it. Where the light jumps,
         at outlines, shadows and edges, a pixel is the mean of supersample² samples instead.
@@ -93,7 +93,7 @@ class Painter:
             edges = np.flatnonzero(_jumps(bright, labels))
             for part in np.array_split(edges, -(-len(edges) * supersample**2 // _AT_ONCE) or 1):
                 value.ravel()[part] = self._refined(camera, pose, part, supersample)
-        return np.asarray(np.rint(255.0 * np.clip(value, 0.0, 1.0)), dtype=np.uint8)
+        return value
 
     def _centres(
         self,

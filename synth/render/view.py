@@ -21,6 +21,7 @@ class View:
     """What the camera sees from one station."""
 
     image: NDArray[np.uint8]  # (rows, cols)
+    light: NDArray[np.float32]  # (rows, cols), before it is rounded and clipped, 1 for white
     depth_m: Floats  # (rows, cols), NaN where nothing is
     labels: NDArray[np.uint16]  # (rows, cols), 1 + the rock's index, 0 elsewhere
     silhouettes: Silhouettes  # (rows, cols) each, as if the rock were alone
@@ -33,19 +34,28 @@ def render_view(
     """Return one view; at edges the image is the mean of supersample² samples in each pixel."""
     limits_m = depth_limits_m(stage, camera, pose)
     labels, depth_m = renderer.measure(pose, limits_m, None)
-    image = stage.painter.paint(camera, pose, labels, depth_m, supersample=supersample)
+    light = stage.painter.paint(camera, pose, labels, depth_m, supersample=supersample)
     boxes_px = tuple(_box_px(rock.vertices_m, camera, pose) for rock in stage.rocks)
     silhouettes = Silhouettes(labels, boxes_px)
     for group in _hidden_groups(boxes_px, camera):
         alone, _ = renderer.measure(pose, limits_m, group)
         silhouettes.replace(group, alone)
     return View(
-        image=image,
+        image=np.rint(255.0 * np.clip(light, 0.0, 1.0)).astype(np.uint8),
+        light=light,
         depth_m=depth_m,
         labels=labels,
         silhouettes=silhouettes,
         boxes_px=boxes_px,
     )
+
+
+def render_light(
+    renderer: Renderer, stage: Stage, camera: Camera, pose: Pose, *, supersample: int
+) -> NDArray[np.float32]:
+    """Return the light of one view alone, (rows, cols), 1 for white."""
+    labels, depth_m = renderer.measure(pose, depth_limits_m(stage, camera, pose), None)
+    return stage.painter.paint(camera, pose, labels, depth_m, supersample=supersample)
 
 
 def depth_limits_m(stage: Stage, camera: Camera, pose: Pose) -> tuple[float, float]:

@@ -11,7 +11,7 @@ from synth.errors import InputError
 from synth.spec.ground import GroundSpec
 from synth.spec.population import PopulationSpec
 from synth.spec.rocks import RocksSpec
-from synth.spec.sensor import NoiseSpec
+from synth.spec.sensor import NoiseSpec, SensorSpec
 from synth.spec.surface import SurfaceSpec
 from synth.spec.view import CameraSpec, SunSpec, ViewsSpec
 
@@ -33,6 +33,7 @@ class SceneSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     views: ViewsSpec = ViewsSpec()
     sun: SunSpec = SunSpec()
     noise: NoiseSpec = NoiseSpec()
+    sensor: SensorSpec = SensorSpec()
 
 
 def load_spec(path: Path) -> SceneSpec:

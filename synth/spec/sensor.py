@@ -1,11 +1,45 @@
-"""The knobs of the range sensor."""
+"""The knobs of the sensor: the range it measures and the picture it takes."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from msgspec import Struct
+from msgspec import Meta, Struct
+
+NoiseKind = Literal["none", "stereo", "sgm"]
+OddWindow = Annotated[int, Meta(ge=3, le=31)]
 
 
 class NoiseSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """The range sensor's errors."""
+    """How range is measured: exactly, with a stereo camera's error, or by matching two images.
 
-    kind: Literal["none"] = "none"
+    The defaults of `disparity_px` and `window_px` are those of Kim et al. (2005) for rovers.
+    """
+
+    kind: NoiseKind = "none"
+    disparity_px: Annotated[float, Meta(ge=0, le=10)] = 0.32  # σ_d of a match, `stereo` alone
+    window_px: OddWindow = 7  # side of the matching window, odd
+    step_px: Annotated[float, Meta(ge=0, le=1)] = 0.0625  # disparity's steps, `stereo`; 0: none
+    min_texture: Annotated[float, Meta(ge=0, le=255)] = 1.0  # least contrast, grey levels of 255
+
+    def __post_init__(self) -> None:
+        """Hold the window to a middle pixel."""
+        if self.window_px % 2 == 0:
+            raise ValueError(f"window_px: expected an odd number, found {self.window_px}")
+
+
+class SensorSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """How light becomes grey levels. The defaults are an ideal sensor of 8 bits."""
+
+    exposure: Annotated[float, Meta(gt=0, le=100)] = 1.0  # times the light; white saturates
+    full_well_e: Annotated[float, Meta(gt=0, le=1e7)] | None = None  # electrons at white
+    read_noise_e: Annotated[float, Meta(ge=0, le=1e5)] = 0.0  # RMS, electrons
+    bits: Literal[8, 12] = 8
+    jpeg_quality: Annotated[int, Meta(ge=1, le=100)] | None = None  # None: no loss
+
+    def __post_init__(self) -> None:
+        """Refuse combinations that no sensor has."""
+        if self.read_noise_e > 0.0 and self.full_well_e is None:
+            raise ValueError(
+                "read_noise_e: expected full_well_e beside it (electrons at white), found none"
+            )
+        if self.jpeg_quality is not None and self.bits != 8:
+            raise ValueError(f"jpeg_quality: expected bits = 8, found {self.bits}")

@@ -11,7 +11,7 @@ from synth.render import choice
     [
         (["scene", "--camera", "foo"], ["--camera", "imp", "msl-navcam", "'foo'"]),
         (["scene", "--renderer", "foo"], ["--renderer", "osmesa", "'foo'"]),
-        (["scene", "--noise", "stereo"], ["--noise", "none", "'stereo'"]),
+        (["scene", "--noise", "lidar"], ["--noise", "none", "stereo", "sgm", "'lidar'"]),
         (["scene", "--rocks", "0"], ["--rocks", "found 0"]),
         (["scene", "--rocks", "9999"], ["rocks.count"]),
         (["scene", "--seed", "-1"], ["--seed"]),

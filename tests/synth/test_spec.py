@@ -29,7 +29,7 @@ def test_values_are_read(tmp_path):
         ("[rocks]\ncount = 0", "rocks.count"),
         ("[rocks]\ndiameter_m = [0.4, 0.2]", "diameter_m"),
         ('[rocks]\nfamily = "mixed"', "series"),
-        ('[noise]\nkind = "stereo"', "noise.kind"),
+        ('[noise]\nkind = "lidar"', "noise.kind"),
         ('[camera]\npreset = "foo"', "camera.preset"),
         ("seed = ", "TOML"),
         ("seed = nan", "seed"),

@@ -1,0 +1,74 @@
+"""One view as the sensor has it: picture and range, and the right eye's picture where matched."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from synth.camera import Camera, Pose
+from synth.light import Stage
+from synth.render.interface import Renderer
+from synth.render.view import View, render_light
+from synth.sensor.picture import Picture, eight_bits, take_picture
+from synth.sensor.rig import Rig, baseline_m, right_eye
+from synth.sensor.seeds import Use, stream
+from synth.sensor.sgm import matched_disparity_px, search_range_px
+from synth.sensor.stereo import modelled_depth_m
+from synth.spec import SceneSpec
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Capture:
+    """What the sensor measured in one view."""
+
+    picture: Picture  # (rows, cols), 8 bits, or 12 in the upper bits of 16
+    depth_m: Floats  # (rows, cols), NaN in holes
+    right_picture: Picture | None  # the right eye's, where two pictures were matched
+
+
+def capture_view(
+    view: View,
+    pose: Pose,
+    *,
+    spec: SceneSpec,
+    scene: int,
+    number: int,
+    camera: Camera,
+    stage: Stage,
+    renderer: Renderer,
+) -> Capture:
+    """Return what the sensor makes of view `number` of a scene, a function of spec and numbers.
+
+    Each use of chance has a stream of its own, so that range noise does not change the picture.
+    """
+
+    def chance(use: Use) -> np.random.Generator:
+        return stream(use, seed=spec.seed, scene=scene, view=number)
+
+    noise, sensor = spec.noise, spec.sensor
+    picture = take_picture(view.light, sensor, rng=chance(Use.PICTURE))
+    if noise.kind == "none":
+        return Capture(picture=picture, depth_m=view.depth_m, right_picture=None)
+    rig = Rig(focal_px=camera.fx, baseline_m=baseline_m(spec.camera.preset))
+    if noise.kind == "stereo":
+        depth_m = modelled_depth_m(view.depth_m, view.light, rig, noise, rng=chance(Use.DISPARITY))
+        return Capture(picture=picture, depth_m=depth_m, right_picture=None)
+    light = render_light(
+        renderer,
+        stage,
+        camera,
+        right_eye(pose, rig.baseline_m),
+        supersample=spec.camera.supersample,
+    )
+    right = take_picture(light, sensor, rng=chance(Use.RIGHT_PICTURE))
+    least_px, count = search_range_px(rig.disparity_px(view.depth_m))
+    disparity_px = matched_disparity_px(
+        eight_bits(picture),
+        eight_bits(right),
+        least_px=least_px,
+        count=count,
+        window_px=noise.window_px,
+    )
+    return Capture(picture=picture, depth_m=rig.depth_m(disparity_px), right_picture=right)

@@ -10,7 +10,8 @@ import msgspec
 from synth.errors import InputError
 from synth.generate import generate_dataset
 from synth.replay import replay_dataset
-from synth.shapes import SERIES, write_series
+from synth.shapes import NAMES, write_series
+from synth.shapes.write import JITTER_RMS_PX
 from synth.spec import RendererName, SceneSpec, convert_spec, load_spec
 from synth.spec.sensor import NoiseKind
 from synth.spec.view import PresetName
@@ -40,8 +41,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     shapes = kinds.add_parser("shapes", help="a row of drawn shapes: image, labels, truth")
     shapes.add_argument("out", metavar="OUT", type=Path, help="folder of the drawing")
-    shapes.add_argument("--series", metavar="NAME", required=True, help=_listed(tuple(SERIES)))
-    shapes.add_argument("--count", metavar="N", type=int, default=4, help="shapes (default 4)")
+    shapes.add_argument("--series", metavar="NAME", required=True, help=_listed(NAMES))
+    shapes.add_argument("--count", metavar="N", type=int, help="shapes (default 4)")
+    shapes.add_argument(
+        "--knobs", metavar="V,V,…", help="the shapes' own knob values, in place of even steps"
+    )
+    shapes.add_argument(
+        "--jitter", metavar="PX", type=float, default=JITTER_RMS_PX, help="the pen's, RMS (0.35)"
+    )
     shapes.add_argument("--seed", metavar="N", type=int, default=0, help="seed (default 0)")
 
 
@@ -56,7 +63,14 @@ def run(args: argparse.Namespace) -> int:
     if args.kind == "shapes":
         if args.seed < 0:
             raise InputError(f"--seed: expected 0 or more, found {args.seed}")
-        write_series(args.series, args.out, count=args.count, seed=args.seed)
+        write_series(
+            args.series,
+            args.out,
+            count=args.count,
+            knobs=_numbers("--knobs", args.knobs),
+            seed=args.seed,
+            jitter_rms_px=args.jitter,
+        )
         return 0
     if args.jobs < 1:
         raise InputError(f"--jobs: expected 1 or more, found {args.jobs}")
@@ -76,6 +90,16 @@ def _refuse_beside_replay(args: argparse.Namespace) -> None:
                 f"--{option}: expected none beside --replay, whose manifest holds the spec, "
                 f"found {getattr(args, option)}"
             )
+
+
+def _numbers(option: str, text: str | None) -> list[float] | None:
+    """Return numbers that commas part, None where the option was not given."""
+    if text is None:
+        return None
+    try:
+        return [float(part) for part in text.split(",")]
+    except ValueError as error:
+        raise InputError(f"{option}: expected numbers parted by commas, found {text!r}") from error
 
 
 def _spec(args: argparse.Namespace) -> SceneSpec:

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.camera import Camera, Pose
+from synth.camera import Camera, Pose, right_eye
 from synth.light import Stage
 from synth.render.interface import Renderer
 from synth.render.view import View, render_light
 from synth.sensor.picture import Picture, eight_bits, take_picture
-from synth.sensor.rig import Rig, baseline_m, right_eye
+from synth.sensor.rig import rig_of
 from synth.sensor.seeds import Use, stream
 from synth.sensor.sgm import matched_disparity_px, search_range_px
 from synth.sensor.stereo import modelled_depth_m
@@ -51,7 +51,7 @@ def capture_view(
     picture = take_picture(view.light, sensor, rng=chance(Use.PICTURE))
     if noise.kind == "none":
         return Capture(picture=picture, depth_m=view.depth_m, right_picture=None)
-    rig = Rig(focal_px=camera.fx, baseline_m=baseline_m(spec.camera.preset))
+    rig = rig_of(spec.camera.preset)
     if noise.kind == "stereo":
         depth_m = modelled_depth_m(view.depth_m, view.light, rig, noise, rng=chance(Use.DISPARITY))
         return Capture(picture=picture, depth_m=depth_m, right_picture=None)

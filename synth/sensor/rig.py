@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.camera import Pose
+from synth.camera import PRESETS
+from synth.errors import InputError
 
 Floats = NDArray[np.float64]
 
@@ -31,17 +32,13 @@ class Rig:
         return np.asarray(depth_m**2 * disparity_sd_px / (self.focal_px * self.baseline_m))
 
 
-# Imager for Mars Pathfinder (Smith et al. 1997), engineering cameras of Mars Science Laboratory
-# (Maki et al. 2012).
-_BASELINES_M = {"imp": 0.150, "msl-navcam": 0.424}
+def rig_of(preset: str) -> Rig:
+    """Return the rig of a preset.
 
-
-def baseline_m(preset: str) -> float:
-    """Return the distance between a preset's two eyes."""
-    return _BASELINES_M[preset]
-
-
-def right_eye(pose: Pose, baseline_m: float) -> Pose:
-    """Return the pose of the right eye, a baseline along the left one's x."""
-    shift_m = np.array([baseline_m, 0.0, 0.0])
-    return Pose(world_to_camera=pose.world_to_camera, translation_m=pose.translation_m - shift_m)
+    Raises:
+        InputError: the preset has one eye.
+    """
+    found = PRESETS[preset]
+    if found.baseline_m is None:
+        raise InputError(f"noise.kind: expected a preset with two eyes, found {preset!r}")
+    return Rig(focal_px=found.camera.fx, baseline_m=found.baseline_m)

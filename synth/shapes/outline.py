@@ -1,14 +1,16 @@
 """Rounded convex polygons Q ⊕ disc: exact area, perimeter, roundness, moments and rectangle."""
 
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import linprog
 
 Floats = NDArray[np.float64]
 
 _ARC_STEP_RAD = 0.02
+_SINGULAR = 1e-9  # three edges that determine no disc
+_SLACK = 1e-10
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,6 +36,14 @@ class RoundedPolygon:
     def roundness(self) -> float:
         """Return r/(r_in + r): the corners' radius over the largest inscribed disc's (Wadell)."""
         return self.radius_px / (largest_disc_px(self.corners_px) + self.radius_px)
+
+    def joints_px(self) -> Floats:
+        """Return where each corner's arc starts and ends, (n, 2, 2), anticlockwise."""
+        following = np.roll(self.corners_px, -1, axis=0) - self.corners_px
+        normals = np.column_stack([following[:, 1], -following[:, 0]])
+        normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+        arms = self.radius_px * np.stack([np.roll(normals, 1, axis=0), normals], axis=1)
+        return np.asarray(self.corners_px[:, None] + arms)
 
     def outline_px(self) -> Floats:
         """Return points on the outline, (n, 2), anticlockwise, its arcs in fine steps."""
@@ -90,17 +100,22 @@ def rectangle(corners: Floats) -> tuple[float, float, float]:
 
 
 def largest_disc_px(corners_px: Floats) -> float:
-    """Return the radius of a largest disc inside a convex polygon."""
+    """Return the radius of a largest disc inside a convex polygon.
+
+    A largest disc touches three edges at least (two parallel ones allow it to be pushed to a
+    third): of the discs that touch three given edges, the largest that keeps inside all.
+    """
     edges = np.roll(corners_px, -1, axis=0) - corners_px
     normals = np.column_stack([edges[:, 1], -edges[:, 0]])
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-    found = linprog(
-        [0.0, 0.0, -1.0],
-        A_ub=np.column_stack([normals, np.ones(len(normals))]),
-        b_ub=np.einsum("ij,ij->i", normals, corners_px),
-        bounds=[(None, None), (None, None), (0, None)],
-    )
-    return float(found.x[2])
+    sides = np.column_stack([normals, np.ones(len(normals))])  # n·centre + radius <= offset
+    offsets = np.einsum("ij,ij->i", normals, corners_px)
+    triples = np.array(list(combinations(range(len(edges)), 3)))
+    triples = triples[np.abs(np.linalg.det(sides[triples])) > _SINGULAR]
+    discs = np.linalg.solve(sides[triples], offsets[triples][..., None])[..., 0]
+    slack = _SLACK * np.abs(offsets - offsets.mean()).max() + _SLACK
+    inside = (discs @ sides.T <= offsets + slack).all(axis=1)
+    return float(discs[inside, 2].max())
 
 
 def _length(corners: Floats) -> float:

@@ -1,6 +1,6 @@
-"""Two series of shapes: angular to round in one frame, and oblong to round at one roundness."""
+"""Series of shapes: angular to round, oblong to round, both at once; and a chart of them all."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,11 +14,15 @@ Floats = NDArray[np.float64]
 LONG_SIDE_PX = 200.0
 _ROUNDNESS = (0.03, 0.75)  # ends of the series `roundness`
 _RECTANGLE_RATIO = 0.78  # of the series `roundness`
+_BOTH_SIDES = (0.35, 0.95)  # short over long side, ends of the series `both`
 _SIDES = (0.18, 0.96)  # short over long side, ends of the series `sphericity`
 _CORNER_ROUNDNESS = 0.6  # of the series `sphericity`
 _CORNERS = 7
 _STEPS = 200
 _TOLERANCE = 1e-9
+_CLASSES = np.arange(1, 10) / 10.0  # of roundness, the chart's rows
+_CHART_SIDES = np.linspace(0.30, 0.94, 9)  # short over long side, the chart's columns
+CHART = "krumbein"
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,41 +30,102 @@ class Shape:
     """One shape of a series."""
 
     outline: RoundedPolygon
-    knob: float  # the series' own: roundness, or short over long side
+    knob: float  # the series' own: short over long side for `sphericity`, else roundness
     sides_px: tuple[float, float]  # long and short side of the smallest rectangle
 
 
-def shape_series(series: str, *, count: int, rng: np.random.Generator) -> list[Shape]:
+@dataclass(frozen=True)
+class Series:
+    """A series: how its shapes are made from the knob's values."""
+
+    make: Callable[[Floats, np.random.Generator], list[Shape]]
+    ends: tuple[float, float]  # of the knob, when it rises in even steps
+    limits: tuple[float, float]  # of values given one by one
+
+
+def shape_series(
+    series: str,
+    *,
+    count: int | None = None,
+    knobs: Sequence[float] | None = None,
+    rng: np.random.Generator,
+) -> list[Shape]:
     """Return the shapes of a series in order: most angular, or most oblong, first.
 
+    The knob rises in `count` even steps (4 by default), or takes the values `knobs`. The chart
+    `krumbein` has 81 shapes, always.
+
     Raises:
-        InputError: an unknown series, or a count below 1.
+        InputError: an unknown series, a count below 1, values out of range, or both given.
     """
+    if series == CHART:
+        if knobs is not None or count not in (None, _CLASSES.size * _CHART_SIDES.size):
+            option = "--count" if knobs is None else "--knobs"
+            raise InputError(f"{option}: expected none beside --series {CHART}: 81 shapes, always")
+        return chart(rng)
     if series not in SERIES:
-        raise InputError(f"--series: expected one of {', '.join(SERIES)}, found {series!r}")
-    if count < 1:
-        raise InputError(f"--count: expected at least 1, found {count}")
-    return SERIES[series](count, rng)
+        raise InputError(f"--series: expected one of {', '.join(NAMES)}, found {series!r}")
+    found = SERIES[series]
+    if knobs is None:
+        steps = 4 if count is None else count
+        if steps < 1:
+            raise InputError(f"--count: expected at least 1, found {steps}")
+        return found.make(np.linspace(*found.ends, steps), rng)
+    if count not in (None, len(knobs)):
+        raise InputError(f"--count: expected {len(knobs)} as --knobs has, found {count}")
+    low, high = found.limits
+    for value in knobs:
+        if not low <= value <= high:
+            raise InputError(f"--knobs: expected {low:g} to {high:g} for {series}, found {value:g}")
+    if not len(knobs):
+        raise InputError("--knobs: expected at least one value, found none")
+    return found.make(np.array(knobs, dtype=np.float64), rng)
 
 
-def roundness_series(count: int, rng: np.random.Generator) -> list[Shape]:
+def roundness_series(knobs: Floats, rng: np.random.Generator) -> list[Shape]:
     """Return one random polygon with ever rounder corners in ever the same rectangle.
 
-    Roundness rises in equal steps. The polygon is stretched along the rectangle's sides so that
-    the rounded shape fills it: sides of a sum are sums of sides.
+    The knob is roundness. The polygon is stretched along the rectangle's sides so that the
+    rounded shape fills it: sides of a sum are sums of sides.
     """
     polygon = _random_polygon(rng)
-    return [_held(polygon, float(value)) for value in np.linspace(*_ROUNDNESS, count)]
+    return [_held(polygon, float(value), _RECTANGLE_RATIO) for value in knobs]
 
 
-def sphericity_series(count: int, rng: np.random.Generator) -> list[Shape]:
+def both_series(knobs: Floats, rng: np.random.Generator) -> list[Shape]:
+    """Return one random polygon, angular and oblong at first, round and square at last.
+
+    The knob is roundness; short over long side rises with it, in proportion.
+    """
+    polygon = _random_polygon(rng)
+    ratios = np.interp(knobs, _ROUNDNESS, _BOTH_SIDES)
+    return [
+        _held(polygon, float(value), float(ratio))
+        for value, ratio in zip(knobs, ratios, strict=True)
+    ]
+
+
+def chart(rng: np.random.Generator) -> list[Shape]:
+    """Return 81 random shapes, row by row: roundness 0.1 to 0.9, oblong to square in each row.
+
+    In the manner of Krumbein's (1941) chart of pebbles by roundness, but drawn anew, every
+    outline of its own polygon, and every roundness and side known exactly.
+    """
+    return [
+        _held(_random_polygon(rng), float(roundness), float(ratio))
+        for roundness in _CLASSES
+        for ratio in _CHART_SIDES
+    ]
+
+
+def sphericity_series(knobs: Floats, rng: np.random.Generator) -> list[Shape]:
     """Return rounded rectangles from oblong to square, all of the same roundness, a little turned.
 
     The largest disc in a rectangle of half sides l ≥ w rounded by r has the radius w + r, so
     r = ρ (w + r) gives the roundness ρ at any length.
     """
     shapes = []
-    for ratio in np.linspace(*_SIDES, count):
+    for ratio in knobs:
         long_px = LONG_SIDE_PX * min(1.0, 0.7 / np.sqrt(ratio))
         half_long, half_short = long_px / 2.0, long_px * ratio / 2.0
         radius = _CORNER_ROUNDNESS * half_short
@@ -73,20 +138,22 @@ def sphericity_series(count: int, rng: np.random.Generator) -> list[Shape]:
     return shapes
 
 
-SERIES: Mapping[str, Callable[[int, np.random.Generator], list[Shape]]] = {
-    "roundness": roundness_series,
-    "sphericity": sphericity_series,
+SERIES: Mapping[str, Series] = {
+    "roundness": Series(roundness_series, ends=_ROUNDNESS, limits=(0.01, 0.95)),
+    "sphericity": Series(sphericity_series, ends=_SIDES, limits=(0.05, 1.0)),
+    "both": Series(both_series, ends=_ROUNDNESS, limits=(0.01, 0.95)),
 }
+NAMES = (*SERIES, CHART)
 
 
-def _held(polygon: Floats, roundness: float) -> Shape:
-    """Return the polygon rounded to a roundness inside the series' rectangle.
+def _held(polygon: Floats, roundness: float, ratio: float) -> Shape:
+    """Return the polygon rounded to a roundness inside a rectangle of a ratio.
 
     Each step turns the polygon into its rectangle and stretches it by the side wanted over the
     side found. The inscribed disc, and with it the rounding, goes with the short side; along the
     long side a power makes up for the rounding's share.
     """
-    target = 0.85 * LONG_SIDE_PX * np.array([1.0, _RECTANGLE_RATIO])
+    target = 0.85 * LONG_SIDE_PX * np.array([1.0, ratio])
     factor = roundness / (1.0 - roundness)
     corners = polygon
     for _ in range(_STEPS):

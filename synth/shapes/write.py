@@ -1,7 +1,8 @@
-"""Drawing a series as with a pen, all in one row, and writing it with its labels and truth."""
+"""Drawing a series as with a pen, and writing it with its labels and truth."""
 
 import csv
 import io
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,66 +14,103 @@ from skimage.draw import polygon as polygon_pixels
 from synth.errors import InputError
 from synth.files import write_png
 from synth.shapes.outline import axis_ratio
-from synth.shapes.series import Shape, shape_series
+from synth.shapes.series import CHART, Shape, shape_series
+from synth.shapes.svg import svg_text
 
 Floats = NDArray[np.float64]
 
 _CELL_PX = 260  # a shape's share of the row
+_CHART_COLUMNS = 9
 _SUBPIXELS = 4
 _PAPER, _FILL, _INK = 236, 168, 40  # grey levels
 _PEN_WIDTH_PX = 2.5
-_JITTER_RMS_PX = 0.35
+JITTER_RMS_PX = 0.35
+_MOST_JITTER_PX = 5.0
 _JITTER_WAVELENGTH_PX = 60.0
 _SHIFT_BITS = 8
 
 
 @dataclass(frozen=True, eq=False)
 class Drawing:
-    """A row of shapes; label k + 1 is the k-th of the series."""
+    """Shapes in rows; label k + 1 is the k-th of the series."""
 
     image: NDArray[np.uint8]  # (rows, cols)
     labels: NDArray[np.uint16]  # (rows, cols)
     rows: tuple[dict[str, float], ...]  # the truth of each shape
+    drawn_px: tuple[Floats, ...]  # what the pen drew, (n, 2) each: column, row
+    middles_px: Floats  # (shapes, 2): where each shape's frame has its middle: column, row
 
 
-def draw_series(shapes: list[Shape], *, rng: np.random.Generator) -> Drawing:
-    """Return a row of shapes, each drawn with a slightly unsteady pen.
+def draw_series(
+    shapes: list[Shape],
+    *,
+    rng: np.random.Generator,
+    columns: int | None = None,
+    jitter_rms_px: float = JITTER_RMS_PX,
+) -> Drawing:
+    """Return shapes in rows of so many columns (all in one by default), drawn by unsteady pen.
 
     The pen strays from the exact outline along its normal by a periodic jitter of known RMS and
     least wavelength; the label is what the pen enclosed, pixel centres inside. The truth is the
     exact outline's.
     """
-    rows, cols = _CELL_PX, _CELL_PX * len(shapes)
+    across = len(shapes) if columns is None else columns
+    rows, cols = _CELL_PX * -(-len(shapes) // across), _CELL_PX * across
     fine = np.full((rows * _SUBPIXELS, cols * _SUBPIXELS), _PAPER, dtype=np.uint8)
     labels = np.zeros((rows, cols), dtype=np.uint16)
-    table = []
+    table, lines, middles = [], [], []
     for index, shape in enumerate(shapes):
         exact = shape.outline.outline_px()
-        drawn = _unsteady(_evenly_spaced(exact), rng)
-        middle = np.array([_CELL_PX * (index + 0.5) - 0.5, _CELL_PX / 2.0 - 0.5])
-        pixels = middle + (drawn - (exact.min(axis=0) + exact.max(axis=0)) / 2.0) * [1.0, -1.0]
+        drawn = _unsteady(_evenly_spaced(exact), jitter_rms_px, rng)
+        row, column = divmod(index, across)
+        middle = np.array([_CELL_PX * (column + 0.5) - 0.5, _CELL_PX * (row + 0.5) - 0.5])
+        middle -= (exact.min(axis=0) + exact.max(axis=0)) / 2.0 * [1.0, -1.0]
+        pixels = middle + drawn * [1.0, -1.0]
         inside = polygon_pixels(pixels[:, 1], pixels[:, 0], shape=labels.shape)
         labels[inside] = index + 1
         _ink(fine, pixels)
-        table.append(_truth(index, shape))
+        table.append(_truth(index, shape, jitter_rms_px))
+        lines.append(pixels)
+        middles.append(middle)
     blocks = fine.reshape(rows, _SUBPIXELS, cols, _SUBPIXELS).mean(axis=(1, 3))
-    return Drawing(image=np.rint(blocks).astype(np.uint8), labels=labels, rows=tuple(table))
+    return Drawing(
+        image=np.rint(blocks).astype(np.uint8),
+        labels=labels,
+        rows=tuple(table),
+        drawn_px=tuple(lines),
+        middles_px=np.array(middles),
+    )
 
 
-def write_series(series: str, out: Path, *, count: int = 4, seed: int = 0) -> None:
-    """Write image.png, labels.png and truth.csv of a series into a folder.
+def write_series(
+    series: str,
+    out: Path,
+    *,
+    count: int | None = None,
+    knobs: Sequence[float] | None = None,
+    seed: int = 0,
+    jitter_rms_px: float = JITTER_RMS_PX,
+) -> None:
+    """Write image.png, image.svg, labels.png and truth.csv of a series into a folder.
 
     Raises:
-        InputError: an unknown series, a count out of range, or a place that is no folder.
+        InputError: an unknown series, a count, values or a jitter out of range, or a place that
+            is no folder.
     """
+    if not 0.0 <= jitter_rms_px <= _MOST_JITTER_PX:
+        raise InputError(f"--jitter: expected 0 to {_MOST_JITTER_PX:g} px, found {jitter_rms_px:g}")
     rng = np.random.default_rng([seed])
-    drawing = draw_series(shape_series(series, count=count, rng=rng), rng=rng)
+    shapes = shape_series(series, count=count, knobs=knobs, rng=rng)
+    columns = _CHART_COLUMNS if series == CHART else None
+    drawing = draw_series(shapes, rng=rng, columns=columns, jitter_rms_px=jitter_rms_px)
     try:
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(f"{out}: expected a folder to write to, found {error.strerror}") from error
     write_png(out / "image.png", drawing.image)
     write_png(out / "labels.png", drawing.labels)
+    svg = svg_text(shapes, drawing.drawn_px, drawing.middles_px, shape=drawing.labels.shape)
+    (out / "image.svg").write_text(svg, encoding="utf-8", newline="")
     text = io.StringIO()
     writer = csv.DictWriter(text, fieldnames=["rock", "series", *list(drawing.rows[0])[1:]])
     writer.writeheader()
@@ -82,7 +120,7 @@ def write_series(series: str, out: Path, *, count: int = 4, seed: int = 0) -> No
     (out / "truth.csv").write_text(text.getvalue(), encoding="utf-8", newline="")
 
 
-def _truth(index: int, shape: Shape) -> dict[str, float]:
+def _truth(index: int, shape: Shape, jitter_rms_px: float) -> dict[str, float]:
     long_px, short_px = shape.sides_px
     return {
         "rock": index + 1,
@@ -93,7 +131,7 @@ def _truth(index: int, shape: Shape) -> dict[str, float]:
         "area_px2": shape.outline.area_px2(),
         "perimeter_px": shape.outline.perimeter_px(),
         "corner_radius_px": shape.outline.radius_px,
-        "jitter_rms_px": _JITTER_RMS_PX,
+        "jitter_rms_px": jitter_rms_px,
         "jitter_wavelength_px": _JITTER_WAVELENGTH_PX,
     }
 
@@ -106,7 +144,7 @@ def _evenly_spaced(points: Floats) -> Floats:
     return np.column_stack([np.interp(even, along, closed[:, axis]) for axis in (0, 1)])
 
 
-def _unsteady(points: Floats, rng: np.random.Generator) -> Floats:
+def _unsteady(points: Floats, rms_px: float, rng: np.random.Generator) -> Floats:
     """Return an outline with the pen's jitter along its normal, of exact RMS."""
     harmonics = max(3, int(0.5 * len(points) / _JITTER_WAVELENGTH_PX))
     turn = 2.0 * np.pi * np.arange(len(points)) / len(points)
@@ -114,7 +152,7 @@ def _unsteady(points: Floats, rng: np.random.Generator) -> Floats:
     for harmonic in range(2, harmonics + 1):
         weights = rng.standard_normal(2)
         jitter += weights[0] * np.cos(harmonic * turn) + weights[1] * np.sin(harmonic * turn)
-    jitter *= _JITTER_RMS_PX / np.sqrt(np.mean(jitter**2))
+    jitter *= rms_px / np.sqrt(np.mean(jitter**2))
     tangent = np.roll(points, -1, axis=0) - np.roll(points, 1, axis=0)
     normal = np.column_stack([tangent[:, 1], -tangent[:, 0]])
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)

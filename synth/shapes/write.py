@@ -56,7 +56,7 @@ def draw_series(
     """
     across = len(shapes) if columns is None else columns
     rows, cols = _CELL_PX * -(-len(shapes) // across), _CELL_PX * across
-    fine = np.full((rows * _SUBPIXELS, cols * _SUBPIXELS), _PAPER, dtype=np.uint8)
+    image = np.full((rows, cols), _PAPER, dtype=np.uint8)
     labels = np.zeros((rows, cols), dtype=np.uint16)
     table, lines, middles = [], [], []
     for index, shape in enumerate(shapes):
@@ -68,13 +68,15 @@ def draw_series(
         pixels = middle + drawn * [1.0, -1.0]
         inside = polygon_pixels(pixels[:, 1], pixels[:, 0], shape=labels.shape)
         labels[inside] = index + 1
-        _ink(fine, pixels)
+        corner = _CELL_PX * np.array([column, row])
+        image[corner[1] : corner[1] + _CELL_PX, corner[0] : corner[0] + _CELL_PX] = _inked(
+            pixels - corner
+        )
         table.append(_truth(index, shape, jitter_rms_px))
         lines.append(pixels)
         middles.append(middle)
-    blocks = fine.reshape(rows, _SUBPIXELS, cols, _SUBPIXELS).mean(axis=(1, 3))
     return Drawing(
-        image=np.rint(blocks).astype(np.uint8),
+        image=image,
         labels=labels,
         rows=tuple(table),
         drawn_px=tuple(lines),
@@ -159,18 +161,20 @@ def _unsteady(points: Floats, rms_px: float, rng: np.random.Generator) -> Floats
     return points + jitter[:, None] * normal
 
 
-def _ink(fine: NDArray[np.uint8], pixels: Floats) -> None:
-    """Fill a shape and draw its outline into the fine image."""
+def _inked(pixels: Floats) -> NDArray[np.uint8]:
+    """Return one shape's cell of the picture: filled, its outline drawn."""
+    fine = np.full((_CELL_PX * _SUBPIXELS, _CELL_PX * _SUBPIXELS), _PAPER, dtype=np.uint8)
     subpixels = (pixels + 0.5) * _SUBPIXELS - 0.5
     fixed = np.rint(subpixels * 2**_SHIFT_BITS).astype(np.int32).reshape(-1, 1, 2)
     cv2.fillPoly(fine, [fixed], _FILL, lineType=cv2.LINE_8, shift=_SHIFT_BITS)
-    width = round(_PEN_WIDTH_PX * _SUBPIXELS)
     cv2.polylines(
         fine,
         [fixed],
         isClosed=True,
         color=_INK,
-        thickness=width,
+        thickness=round(_PEN_WIDTH_PX * _SUBPIXELS),
         lineType=cv2.LINE_8,
         shift=_SHIFT_BITS,
     )
+    blocks = fine.reshape(_CELL_PX, _SUBPIXELS, _CELL_PX, _SUBPIXELS).mean(axis=(1, 3))
+    return np.asarray(np.rint(blocks), dtype=np.uint8)

@@ -20,6 +20,13 @@ from synth.render import choice
         (["shapes", "--series", "star"], ["--series", "roundness", "'star'"]),
         (["shapes", "--series", "roundness", "--count", "0"], ["--count"]),
         (["shapes", "--series", "roundness", "--seed", "-1"], ["--seed"]),
+        (["shapes", "--series", "krumbein", "--count", "5"], ["--count", "81"]),
+        (["shapes", "--series", "krumbein", "--knobs", "0.5"], ["--knobs", "81"]),
+        (["shapes", "--series", "roundness", "--knobs", "a,b"], ["--knobs", "'a,b'"]),
+        (["shapes", "--series", "roundness", "--knobs", "0.2,1.5"], ["--knobs", "found 1.5"]),
+        (["shapes", "--series", "both", "--jitter", "9"], ["--jitter", "found 9"]),
+        (["scene", "--replay", "absent.json"], ["absent.json", "JSON"]),
+        (["scene", "--replay", "absent.json", "--rocks", "3"], ["--rocks", "--replay"]),
     ],
 )
 def test_a_mistake_is_one_line_and_status_2(tmp_path, capsys, options, words):
@@ -44,6 +51,7 @@ def test_shapes_are_written(tmp_path):
     assert main(["synth", "shapes", str(tmp_path / "out"), "--series", "sphericity"]) == 0
     assert {path.name for path in (tmp_path / "out").iterdir()} == {
         "image.png",
+        "image.svg",
         "labels.png",
         "truth.csv",
     }

@@ -1,6 +1,8 @@
 """Drawn shapes: exact outlines, series that keep their word, files."""
 
 import csv
+import re
+from xml.etree import ElementTree
 
 import cv2
 import numpy as np
@@ -8,7 +10,13 @@ import pytest
 
 from synth.errors import InputError
 from synth.shapes import shape_series, write_series
-from synth.shapes.outline import RoundedPolygon, axis_ratio, polygon_area, rectangle
+from synth.shapes.outline import (
+    RoundedPolygon,
+    axis_ratio,
+    largest_disc_px,
+    polygon_area,
+    rectangle,
+)
 
 SQUARE = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 
@@ -61,6 +69,73 @@ def test_sphericity_rises_at_one_roundness():
         assert short / long == pytest.approx(shape.knob, rel=1e-3)
 
 
+def test_both_rise_together():
+    shapes = shape_series("both", count=5, rng=np.random.default_rng(2))
+    roundness = [shape.outline.roundness() for shape in shapes]
+    ratios = [shape.sides_px[1] / shape.sides_px[0] for shape in shapes]
+    np.testing.assert_allclose(roundness, np.linspace(0.03, 0.75, 5), rtol=1e-6)
+    np.testing.assert_allclose(ratios, np.linspace(0.35, 0.95, 5), rtol=1e-6)
+
+
+def test_chart_has_nine_classes_by_nine(tmp_path):
+    shapes = shape_series("krumbein", rng=np.random.default_rng(4))
+    roundness = np.array([shape.outline.roundness() for shape in shapes]).reshape(9, 9)
+    ratios = np.array([s.sides_px[1] / s.sides_px[0] for s in shapes]).reshape(9, 9)
+    # Sides settle to 1e-9 of themselves or within 200 steps; roundness is exact by construction.
+    np.testing.assert_allclose(roundness, np.tile(np.arange(1, 10)[:, None] / 10, 9), rtol=1e-9)
+    np.testing.assert_allclose(ratios, np.tile(np.linspace(0.3, 0.94, 9), (9, 1)), rtol=1e-6)
+    for shape in shapes[::13]:
+        long, short, _ = rectangle(shape.outline.outline_px())
+        # The fine chords stay 5e-5 of the radius inside the arcs.
+        assert short / long == pytest.approx(shape.sides_px[1] / shape.sides_px[0], rel=1e-3)
+    write_series("krumbein", tmp_path, seed=4)
+    labels = cv2.imread(str(tmp_path / "labels.png"), cv2.IMREAD_UNCHANGED)
+    assert len(np.unique(labels)) == 82
+    assert labels[130, 130 + 260 * 8] == 9  # nine in a row, and the tenth below the first
+    assert labels[130 + 260, 130] == 10
+
+
+def test_given_knobs_take_the_place_of_even_steps():
+    values = [0.19, 0.21, 0.72, 0.95]  # the uneven gaps of the paper's figure 9
+    shapes = shape_series("sphericity", knobs=values, rng=np.random.default_rng(0))
+    np.testing.assert_allclose([s.sides_px[1] / s.sides_px[0] for s in shapes], values, rtol=1e-12)
+
+
+def test_largest_disc_of_known_polygons():
+    assert largest_disc_px(SQUARE) == pytest.approx(1.0)
+    assert largest_disc_px(SQUARE * [5.0, 2.0]) == pytest.approx(2.0)
+    assert largest_disc_px(np.array([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]])) == pytest.approx(1.0)
+
+
+def test_svg_holds_what_was_drawn_and_the_exact_outline(tmp_path):
+    write_series("both", tmp_path, count=3, seed=8)
+    labels = cv2.imread(str(tmp_path / "labels.png"), cv2.IMREAD_UNCHANGED)
+    root = ElementTree.parse(tmp_path / "image.svg").getroot()
+    assert (int(root.get("height")), int(root.get("width"))) == labels.shape
+    paths = {
+        path.get("id"): path.get("d") for path in root.iter("{http://www.w3.org/2000/svg}path")
+    }
+    shapes = shape_series("both", count=3, rng=np.random.default_rng([8]))
+    for number in (1, 2, 3):
+        text = paths[f"rock-{number}"].strip("MZ").split("L")
+        drawn = np.array([[float(v) for v in pair.split(",")] for pair in text]) - 0.5
+        # One point a pixel of length and two decimals: off the pen's line by under 0.02 px.
+        assert abs(polygon_area(drawn)) == pytest.approx((labels == number).sum(), rel=0.002)
+        arcs = paths[f"exact-{number}"]
+        outline = shapes[number - 1].outline
+        assert arcs.count("A") == len(outline.corners_px)
+        found = re.findall(r"A([\d.]+) [\d.]+ 0 0 0 ([\d.]+),([\d.]+)", arcs)
+        assert all(float(one[0]) == pytest.approx(outline.radius_px, abs=1e-5) for one in found)
+        ends = np.array([[float(x), float(y)] for _, x, y in found]) - 0.5
+        rows, cols = np.nonzero(labels == number)
+        box = [cols.min(), rows.min(), cols.max(), rows.max()]
+        exact = outline.outline_px() * [1.0, -1.0]
+        offset = ends[0] - outline.joints_px()[0, 1] * [1.0, -1.0]
+        low, high = (exact + offset).min(axis=0), (exact + offset).max(axis=0)
+        # The pen strays by three times its RMS, 1.1 px, at most, and pixels are whole.
+        np.testing.assert_allclose(np.concatenate([low, high]), box, atol=1.7)
+
+
 @pytest.mark.parametrize("series", ["roundness", "sphericity"])
 def test_files_agree(tmp_path, series):
     write_series(series, tmp_path / "one", count=3, seed=5)
@@ -83,7 +158,9 @@ def test_files_agree(tmp_path, series):
 
 
 def test_bad_series_and_count(tmp_path):
-    with pytest.raises(InputError, match="expected one of roundness, sphericity, found 'star'"):
+    with pytest.raises(
+        InputError, match="expected one of roundness, sphericity, both, krumbein, found 'star'"
+    ):
         write_series("star", tmp_path, count=4)
     with pytest.raises(InputError, match="--count"):
         write_series("roundness", tmp_path, count=0)

@@ -216,10 +216,15 @@ def diameter_m(points_m: Floats) -> float:
 
 def run_lengths(mask: NDArray[np.bool_]) -> list[int]:
     """Return COCO's uncompressed run lengths: down the columns, the first run of zeros."""
-    flat = np.concatenate([[False], mask.ravel(order="F"), [False]])
-    changes = np.flatnonzero(flat[1:] != flat[:-1])
-    edges = np.concatenate([[0], changes, [mask.size]])
-    runs = np.diff(edges)
+    columns = np.flatnonzero(mask.any(axis=0))
+    if not len(columns):
+        return [mask.size]
+    first, last = int(columns[0]), int(columns[-1])
+    part = np.zeros((last - first + 1, mask.shape[0]), dtype=bool)
+    part[:] = mask[:, first : last + 1].T
+    flat = np.concatenate([[False], part.ravel(), [False]])
+    changes = first * mask.shape[0] + np.flatnonzero(flat[1:] != flat[:-1])
+    runs = np.diff(np.concatenate([[0], changes, [mask.size]]))
     return [int(run) for run in (runs[:-1] if runs[-1] == 0 else runs)]
 
 

@@ -15,6 +15,7 @@ from synth.sensor.seeds import Use, stream
 from synth.sensor.sgm import matched_disparity_px, search_range_px
 from synth.sensor.stereo import modelled_depth_m
 from synth.spec import SceneSpec
+from synth.spec.sensor import SensorSpec
 
 Floats = NDArray[np.float64]
 
@@ -48,7 +49,8 @@ def capture_view(
         return stream(use, seed=spec.seed, scene=scene, view=number)
 
     noise, sensor = spec.noise, spec.sensor
-    picture = take_picture(view.light, sensor, rng=chance(Use.PICTURE))
+    ideal = sensor == SensorSpec()
+    picture = view.image if ideal else take_picture(view.light, sensor, rng=chance(Use.PICTURE))
     if noise.kind == "none":
         return Capture(picture=picture, depth_m=view.depth_m, right_picture=None)
     rig = rig_of(spec.camera.preset)

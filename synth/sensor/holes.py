@@ -33,12 +33,12 @@ def half_occluded(disparity_px: Floats) -> Mask:
     return np.asarray(hidden | outside | ~known)
 
 
-def contrast(light: Floats, window_px: int) -> Floats:
+def contrast(light: NDArray[np.floating], window_px: int) -> Floats:
     """Return the RMS change from a column to the next over a window, grey levels of 255.
 
     Only changes along the row tell a match from its neighbours.
     """
-    levels = 255.0 * light
+    levels = 255.0 * np.clip(light, 0.0, 1.0).astype(np.float64)
     steps = np.diff(levels, axis=1, append=levels[:, -1:])
     mean_square = cv2.boxFilter(steps**2, -1, (window_px, window_px))
     return np.asarray(np.sqrt(np.maximum(mean_square, 0.0)))

@@ -9,11 +9,10 @@ from synth.spec.sensor import SensorSpec
 Picture = NDArray[np.uint8] | NDArray[np.uint16]
 
 _SHIFT = 4  # 12 bits stand in the upper bits of 16, so that white is white to any reader
-_TIE = 1e-9  # far above rounding, far below noise: halves go up
 
 
 def take_picture(
-    light: NDArray[np.float64], sensor: SensorSpec, *, rng: np.random.Generator
+    light: NDArray[np.floating], sensor: SensorSpec, *, rng: np.random.Generator
 ) -> Picture:
     """Return the grey levels, (rows, cols), of light where 1 is white.
 
@@ -21,13 +20,13 @@ def take_picture(
     noise; level = round((2^bits − 1) electrons/N), clipped. 12 bits are returned times 16, in
     16 bits. JPEG's loss is in the levels: the picture is compressed and opened again.
     """
-    exposed = sensor.exposure * light
+    exposed = sensor.exposure * light.astype(np.float64)
     if sensor.full_well_e is not None:
         electrons = rng.poisson(sensor.full_well_e * exposed).astype(np.float64)
         electrons += rng.normal(0.0, sensor.read_noise_e, size=light.shape)
         exposed = electrons / sensor.full_well_e
     white = 2**sensor.bits - 1
-    levels = np.floor(np.clip(exposed, 0.0, 1.0) * white + 0.5 + _TIE)
+    levels = np.rint(np.clip(exposed, 0.0, 1.0) * white)
     if sensor.bits > 8:
         return np.asarray(levels * 2**_SHIFT, dtype=np.uint16)
     picture: NDArray[np.uint8] = levels.astype(np.uint8)

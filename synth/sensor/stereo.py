@@ -13,7 +13,7 @@ Floats = NDArray[np.float64]
 
 def modelled_depth_m(
     depth_m: Floats,
-    light: Floats,
+    light: NDArray[np.floating],
     rig: Rig,
     noise: NoiseSpec,
     *,

@@ -35,6 +35,14 @@ class SceneSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     noise: NoiseSpec = NoiseSpec()
     sensor: SensorSpec = SensorSpec()
 
+    def __post_init__(self) -> None:
+        """Match pictures of pinholes alone: a lens bends the rows that two eyes share."""
+        if self.noise.kind == "sgm" and any(self.camera.distortion):
+            raise ValueError(
+                "noise.kind: expected no camera.distortion beside 'sgm', "
+                f"found {list(self.camera.distortion)}"
+            )
+
 
 def load_spec(path: Path) -> SceneSpec:
     """Read a spec from a TOML file; what the file leaves out keeps its default.

@@ -145,7 +145,7 @@ def test_the_measured_depth_strays_and_the_true_one_is_kept(dataset):
 
 def test_glb_holds_rocks_and_ground_where_they_lie(dataset):
     scene = trimesh.load(dataset / "000000" / "scene.glb")
-    assert set(scene.geometry) == {"rock_000000", "rock_000001", "rock_000002", "ground"}
+    assert set(scene.geometry) == {"rock_000000", "rock_000001", "rock_000002", "ground_000000"}
     shape = table_of(dataset / "000000" / "scene_gt_shape.json")
     for rock in shape["rocks"]:
         name = f"rock_{rock['instance']:06d}"

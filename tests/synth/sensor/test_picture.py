@@ -10,11 +10,11 @@ from synth.spec.sensor import SensorSpec
 
 
 def test_ideal_sensor_rounds_and_draws_nothing(rng):
-    light = np.arange(1021).reshape(1, -1) / 1020.0  # quarters of a grey level
+    light = np.arange(766).reshape(1, -1) / 765.0  # thirds of a grey level
     state = rng.bit_generator.state
     picture = take_picture(light, SensorSpec(), rng=rng)
     assert rng.bit_generator.state == state
-    np.testing.assert_array_equal(picture, (np.arange(1021)[None] + 2) // 4)  # halves go up
+    np.testing.assert_array_equal(picture, (np.arange(766)[None] + 1) // 3)
 
 
 def test_twelve_bits_stand_in_the_upper_bits(rng):
@@ -60,6 +60,7 @@ def test_jpeg_loses_more_at_lower_quality(rng):
         ({"sensor": {"jpeg_quality": 80, "bits": 12}}, "jpeg_quality"),
         ({"sensor": {"bits": 10}}, "bits"),
         ({"noise": {"window_px": 6}}, "window_px"),
+        ({"noise": {"kind": "sgm"}, "camera": {"distortion": [0.1, 0, 0, 0, 0]}}, "distortion"),
     ],
 )
 def test_specs_that_no_sensor_has_are_refused(table, key):

@@ -16,6 +16,7 @@ from synth.light import light_scene
 from synth.render import open_renderer, render_view
 from synth.render.view import View
 from synth.scene import Scene, build_scene, camera_distance_m
+from synth.shape_truth import scene_gt_shape
 from synth.spec import RendererName, SceneSpec
 
 PARTIAL = ".partial"  # folder of scenes that are not whole yet, gone when the dataset is
@@ -128,7 +129,7 @@ def _write_tables(
     write_json(folder / "scene_gt.json", bop.scene_gt(scene, index))
     write_json(folder / "scene_gt_info.json", bop.scene_gt_info(views))
     write_json(folder / "scene_gt_coco.json", bop.scene_gt_coco(scene, index, views))
-    write_json(folder / "scene_gt_shape.json", bop.scene_gt_shape(scene, index, views))
+    write_json(folder / "scene_gt_shape.json", scene_gt_shape(scene, index, views))
 
 
 def _publish(folder: Path, out: Path) -> None:

@@ -116,9 +116,7 @@ def sheets(scans: list[Path]) -> dict[str, list[Callable[[], Rock]]]:
             lambda rms=rms: rough(polyhedron(HALF_AXES_M, rounding=0.1), rms)
             for rms in (0.0, 0.005, 0.01, 0.02, 0.03)
         ],
-        "sphericity": [
-            lambda axes=axes: polyhedron(axes, rounding=0.15) for axes in flat
-        ],
+        "sphericity": [lambda axes=axes: polyhedron(axes, rounding=0.15) for axes in flat],
         "realistic-abrasion": [
             lambda k=k: broken(21, abrasion=k) for k in (0.0, 0.25, 0.5, 0.75, 1.0)
         ],

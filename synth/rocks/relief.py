@@ -49,14 +49,15 @@ def with_relief(
     smooth = resampled(
         rock.mesh, rock.truth.half_axes_box_m, subdivisions=_subdivisions(rock, degrees[1])
     )
+    along = smooth.vertices_m / rock.truth.half_axes_box_m**2
     rough = displaced(
         smooth,
-        along=smooth.vertices_m / rock.truth.half_axes_box_m**2,
+        along=along,
         rms_m=relief_rms * size_m,
         degrees=degrees,
         rng=rng,
     )
-    _require_unfolded(rough)
+    _require_unfolded(smooth, rough, along)
     knobs = {
         **rock.knobs,
         "relief_rms": relief_rms,
@@ -129,12 +130,18 @@ def _subdivisions(rock: Rock, last_degree: int) -> int:
     return _FINEST
 
 
-def _require_unfolded(rough: Mesh) -> None:
-    """Raise InputError where the relief has turned facets away from the centroid."""
-    first, second, third = rough.vertices_m[rough.faces].transpose(1, 0, 2)
-    folded = int((np.einsum("ij,ij->i", first, np.cross(second, third)) <= 0.0).sum())
+def _require_unfolded(smooth: Mesh, rough: Mesh, along: Floats) -> None:
+    """Raise InputError where the relief has turned facets against its own direction, (n, 3)."""
+    folded = int((_upright(smooth, along) & ~_upright(rough, along)).sum())
     if folded:
         raise InputError(
             f"rocks.relief_rms: expected relief that folds no facet over, "
             f"found {folded} of {len(rough.faces)} folded"
         )
+
+
+def _upright(mesh: Mesh, along: Floats) -> NDArray[np.bool_]:
+    """Tell which facets, (m,), face the way of a direction given at their vertices, (n, 3)."""
+    first, second, third = mesh.vertices_m[mesh.faces].transpose(1, 0, 2)
+    outward = np.cross(second - first, third - first)
+    return np.asarray(np.einsum("ij,ij->i", outward, along[mesh.faces].sum(axis=1)) > 0.0)

@@ -11,6 +11,8 @@ from synth.rocks.sphere import unit_sphere
 
 Floats = NDArray[np.float64]
 
+_NUDGES = (0.0, 1e-5, -1e-5, 1e-4, -1e-4)  # turns of a ray that slipped through, rad
+
 
 def resampled(mesh: Mesh, half_axes_m: Floats, *, subdivisions: int) -> Mesh:
     """Return the surface that the origin's rays meet last, on an even mesh.
@@ -27,12 +29,26 @@ def resampled(mesh: Mesh, half_axes_m: Floats, *, subdivisions: int) -> Mesh:
     rays = directions * half_axes_m
     rays /= np.linalg.norm(rays, axis=1, keepdims=True)
     far_m = 2.0 * float(np.linalg.norm(mesh.vertices_m, axis=1).max())
-    surface = trimesh.Trimesh(mesh.vertices_m, mesh.faces, process=False)
-    hit = np.asarray(RayMeshIntersector(surface).intersects_first(far_m * rays, -rays))
-    if (hit < 0).any():
+    surface = RayMeshIntersector(trimesh.Trimesh(mesh.vertices_m, mesh.faces, process=False))
+    reach_m = np.full(len(rays), -1.0)
+    for nudge in _NUDGES:
+        # A ray may slip through between two facets and hit the far side, or nothing.
+        missed = np.flatnonzero(reach_m <= 0.0)
+        starts_m = far_m * (rays[missed] + nudge)
+        reach_m[missed] = _reach_m(mesh, rays[missed], surface, starts_m)
+    if (reach_m <= 0.0).any():
         raise InputError("rocks.relief: expected a body round its centroid, found one beside it")
-    first, second, third = mesh.vertices_m[mesh.faces[hit]].transpose(1, 0, 2)
-    planes = np.cross(second - first, third - first)
-    reach_m = np.einsum("ij,ij->i", planes, first) / np.einsum("ij,ij->i", planes, rays)
     vertices_m = reach_m[:, None] * rays
     return Mesh(vertices_m=vertices_m, faces=faces, normals=vertex_normals(vertices_m, faces))
+
+
+def _reach_m(mesh: Mesh, rays: Floats, surface: RayMeshIntersector, starts_m: Floats) -> Floats:
+    """Return how far along rays (n, 3) the facets lie that are met on the way in, 0 if none."""
+    towards = -starts_m / np.linalg.norm(starts_m, axis=1, keepdims=True)
+    hit = np.asarray(surface.intersects_first(starts_m, towards))
+    first, second, third = mesh.vertices_m[mesh.faces[hit]].transpose(1, 0, 2)
+    planes = np.cross(second - first, third - first)
+    along = np.einsum("ij,ij->i", planes, rays)
+    known = (hit >= 0) & (along > 0.0)
+    heights = np.einsum("ij,ij->i", planes, first)
+    return np.where(known, heights / np.where(known, along, 1.0), 0.0)

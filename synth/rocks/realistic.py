@@ -20,7 +20,7 @@ _FALL = 1.15  # an octave's height falls as its wavelength to this power
 _CHIP_DEPTHS = (0.012, 0.11)  # of the rock's size; small ones prevail, p(δ) ~ δ^-2
 _CHIP_REACH_RAD = 0.3  # of the surroundings over which a corner stands out
 _CHIP_DRAWS, _CHIP_TILT, _CHIP_SUBDIVISIONS = 25, 0.25, 4
-_LEFT_OUT = 0.75
+_LEFT_OUT, _NEARLY = 1e-3, 0.75  # share of the nearest cut's term; distance ever left out
 _SHARPEST, _BLUNTEST = 90.0, 7.0  # exponents of the soft minimum at abrasion 0 and 1
 
 
@@ -139,7 +139,8 @@ def _radii(
     A cut far behind the nearest adds nothing and is left out, and with it its undulation.
     """
     nearness = directions @ (normals / depths[:, None]).T
-    counts = nearness > _LEFT_OUT * nearness.max(axis=1, keepdims=True)
+    least = min(_LEFT_OUT ** (1.0 / steep), _NEARLY)
+    counts = nearness > least * nearness.max(axis=1, keepdims=True)
     total = np.zeros(len(directions))
     for cut in range(len(normals)):
         seen = np.flatnonzero(counts[:, cut])

@@ -9,6 +9,8 @@ import numpy as np
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 from PIL import Image
+from scipy.spatial import ConvexHull
+from scipy.spatial.transform import Rotation
 
 from synth.rocks import Rock
 from synth.rocks.ellipsoid import ellipsoid
@@ -18,7 +20,6 @@ from synth.rocks.relief import with_relief
 from synth.rocks.rounded import UnsettledError, rounded_box, rounded_polyhedron
 from synth.rocks.scan import scan
 from synth.rocks.superellipsoid import superellipsoid
-from synth.scene import settle
 
 SIZE_PX, FIELD_M, FINE = 280, 0.52, 2
 HALF_AXES_M = np.array([0.2, 0.165, 0.125])
@@ -28,7 +29,11 @@ SKY, ALBEDO, GROUND_ALBEDO = 0.22, 0.5, 0.42
 
 def picture(rock: Rock, *, yaw_rad: float) -> np.ndarray:
     """Return a rock on the ground under the sun, (SIZE_PX, SIZE_PX), shadows by rays."""
-    _, rotation, height_m = settle(rock, yaw_rad=yaw_rad)
+    planes = ConvexHull(rock.mesh.vertices_m).equations
+    lowest = planes[np.argmax(planes[:, 3])]  # the facet nearest to the centroid goes down
+    down, _ = Rotation.align_vectors([[0.0, 0.0, -1.0]], [lowest[:3]])
+    rotation = (Rotation.from_euler("z", yaw_rad) * down).as_matrix()
+    height_m = -lowest[3]
     mesh = rock.mesh.moved(rotation, np.array([0.0, 0.0, height_m]))
     half = 3.0
     corners_m = np.array([[-half, -half, 0], [half, -half, 0], [half, half, 0], [-half, half, 0]])

@@ -21,7 +21,7 @@ from synth.rocks.rounded import UnsettledError, rounded_box, rounded_polyhedron
 from synth.rocks.scan import scan
 from synth.rocks.superellipsoid import superellipsoid
 
-SIZE_PX, FIELD_M, FINE = 280, 0.6, 2
+SIZE_PX, FIELD_M, FINE = 280, 0.52, 2
 HALF_AXES_M = np.array([0.2, 0.165, 0.125])
 CAMERA_RAD, SUN = np.deg2rad(28.0), np.array([-0.62, -0.35, 0.62])
 SKY, ALBEDO, GROUND_ALBEDO = 0.22, 0.5, 0.42

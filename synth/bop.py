@@ -1,4 +1,4 @@
-"""The records of one scene in BOP's and COCO's forms, and our truth: plain tables for JSON."""
+"""The records of one scene in BOP's and COCO's forms: plain tables for JSON."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 from scipy.spatial.distance import cdist
 
-from synth.camera import Camera, Pose
+from synth.camera import Camera
 from synth.mesh import Mesh
 from synth.render.view import View
-from synth.scene import PlacedRock, Scene
+from synth.scene import Scene
 
 Floats = NDArray[np.float64]
 Table = dict[str, Any]
@@ -134,59 +134,6 @@ def scene_gt_coco(scene: Scene, index: int, views: Sequence[View]) -> Table:
             for instance in range(len(scene.rocks))
         ],
         "annotations": annotations,
-    }
-
-
-def scene_gt_shape(scene: Scene, index: int, views: Sequence[View]) -> Table:
-    """Return scene_gt_shape.json: each rock's truth, and how each view sees it."""
-    return {
-        "rocks": [_rock(placed, index, instance) for instance, placed in enumerate(scene.rocks)],
-        "views": {
-            str(number): [
-                _sight(scene.camera, pose, placed, view, instance)
-                for instance, placed in enumerate(scene.rocks)
-            ]
-            for number, (pose, view) in enumerate(zip(scene.poses, views, strict=True))
-        },
-    }
-
-
-def _rock(placed: PlacedRock, index: int, instance: int) -> Table:
-    truth = placed.rock.truth
-    return {
-        "instance": instance,
-        "obj_id": object_id(index, instance),
-        "family": placed.rock.family,
-        "knobs": placed.rock.knobs,
-        "half_axes_box_m": truth.half_axes_box_m,
-        "half_axes_inertia_m": truth.half_axes_inertia_m,
-        "maximum_projection_sphericity": truth.maximum_projection_sphericity(),
-        "maximum_projection_sphericity_inertia": truth.maximum_projection_sphericity_inertia(),
-        "wadell_sphericity": truth.wadell_sphericity(),
-        "volume_m3": truth.volume_m3,
-        "area_m2": truth.area_m2,
-        "roundness": truth.roundness,
-        "albedo": placed.albedo,
-        "centre_m": placed.position_m,
-        "rotation_model_to_world": placed.model_to_world.ravel(),
-        "model_mm": model_info(placed.rock.mesh),
-    }
-
-
-def _sight(camera: Camera, pose: Pose, placed: PlacedRock, view: View, instance: int) -> Table:
-    silhouette = view.silhouettes[instance]
-    count_all = int(silhouette.sum())
-    left, top, right, bottom = view.boxes_px[instance]
-    inside = left >= -0.5 and top >= -0.5
-    inside &= right <= camera.width - 0.5 and bottom <= camera.height - 0.5
-    depth_m = float(pose.camera_points_m(placed.position_m)[2])
-    count_visible = int((view.labels == instance + 1).sum())
-    return {
-        "instance": instance,
-        "visible_fraction": count_visible / count_all if count_all else 0.0,
-        "truncated": not inside,
-        "pixel_m": depth_m / np.sqrt(camera.fx * camera.fy),
-        "depth_m": depth_m,
     }
 
 

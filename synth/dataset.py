@@ -17,8 +17,9 @@ from synth.light import light_scene
 from synth.paths import camera_distance_m, camera_of
 from synth.render import open_renderer, render_view
 from synth.render.view import View
-from synth.scene import Scene, build_scene
+from synth.scene import Scene, build_scene, camera_distance_m
 from synth.sensor import Capture, capture_view
+from synth.shape_truth import scene_gt_shape
 from synth.sheet import write_contact_sheet
 from synth.spec import RendererName, SceneSpec
 
@@ -181,7 +182,7 @@ def _write_tables(
     write_json(folder / "scene_gt.json", bop.scene_gt(scene, index))
     write_json(folder / "scene_gt_info.json", bop.scene_gt_info(views, valid))
     write_json(folder / "scene_gt_coco.json", bop.scene_gt_coco(scene, index, views))
-    write_json(folder / "scene_gt_shape.json", bop.scene_gt_shape(scene, index, views))
+    write_json(folder / "scene_gt_shape.json", scene_gt_shape(scene, index, views))
 
 
 def _publish(folder: Path, out: Path, index: int) -> None:

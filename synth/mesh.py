@@ -65,13 +65,23 @@ def covariance_m2(mesh: Mesh) -> Floats:
     return np.asarray(squares / (20.0 * volumes.sum()) - np.outer(centre, centre))
 
 
+def vertex_areas_m2(mesh: Mesh) -> Floats:
+    """Return each vertex's share of the area, (n,): a third of the faces round it."""
+    corners = _corners_m(mesh)
+    areas = np.linalg.norm(np.cross(corners[1] - corners[0], corners[2] - corners[0]), axis=1)
+    shares = np.repeat(areas / 6.0, 3)
+    sums = np.bincount(mesh.faces.ravel(), weights=shares, minlength=len(mesh.vertices_m))
+    return sums.astype(np.float64)
+
+
 def vertex_normals(vertices_m: Floats, faces: Ints) -> Floats:
     """Return unit normals at the vertices, (n, 3): the area-weighted mean over the faces around."""
     corners = vertices_m[faces]
     doubled = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    sums = np.zeros_like(vertices_m)
-    for corner in range(3):
-        np.add.at(sums, faces[:, corner], doubled)
+    flat, count = faces.T.ravel(), len(vertices_m)
+    sums = np.column_stack(
+        [np.bincount(flat, weights=np.tile(part, 3), minlength=count) for part in doubled.T]
+    )
     return np.asarray(sums / np.linalg.norm(sums, axis=1, keepdims=True))
 
 

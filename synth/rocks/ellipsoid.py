@@ -1,17 +1,16 @@
 """Ellipsoids."""
 
 import numpy as np
-import trimesh
 from numpy.typing import NDArray
 from scipy.special import elliprg
 
 from synth.mesh import Mesh
+from synth.outlines import EllipsoidForm
 from synth.rocks.record import Rock
+from synth.rocks.sphere import unit_sphere
 from synth.truth import Truth
 
 Floats = NDArray[np.float64]
-
-_SUBDIVISIONS = 5  # 20,480 faces: 0.04 mm from a surface of 0.2 m radius
 
 
 def ellipsoid(half_axes_m: Floats) -> Rock:
@@ -29,19 +28,19 @@ def ellipsoid(half_axes_m: Floats) -> Rock:
         area_m2=ellipsoid_area_m2(half_axes_m),
         roundness=None,
     )
-    return Rock(family="ellipsoid", knobs={}, mesh=ellipsoid_mesh(half_axes_m), truth=truth)
+    return Rock(
+        family="ellipsoid",
+        knobs={},
+        mesh=ellipsoid_mesh(half_axes_m),
+        truth=truth,
+        form=EllipsoidForm(half_axes_m),
+    )
 
 
 def ellipsoid_area_m2(half_axes_m: Floats) -> float:
     """Return 4π R_G(a²b², a²c², b²c²), the area of an ellipsoid (DLMF 19.33.2)."""
     a2, b2, c2 = half_axes_m**2
     return float(4.0 * np.pi * elliprg(a2 * b2, a2 * c2, b2 * c2))
-
-
-def unit_sphere() -> tuple[Floats, NDArray[np.int64]]:
-    """Return an even mesh of the unit sphere: directions (n, 3) and faces (m, 3)."""
-    sphere = trimesh.creation.icosphere(subdivisions=_SUBDIVISIONS)
-    return np.array(sphere.vertices), np.array(sphere.faces, dtype=np.int64)
 
 
 def ellipsoid_mesh(half_axes_m: Floats) -> Mesh:

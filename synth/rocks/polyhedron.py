@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import linprog
 from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 
 from synth.errors import InputError
+from synth.inball import largest_ball
 
 Floats = NDArray[np.float64]
 
@@ -129,15 +129,9 @@ def functionals(polyhedron: Polyhedron) -> Functionals:
     )
 
 
-def largest_ball(polyhedron: Polyhedron) -> tuple[Floats, float]:
-    """Return the centre (3,) and the radius, in metres, of a largest ball inside."""
-    found = linprog(
-        [0.0, 0.0, 0.0, -1.0],
-        A_ub=np.column_stack([polyhedron.normals, np.ones(len(polyhedron.normals))]),
-        b_ub=polyhedron.offsets_m(),
-        bounds=[(None, None)] * 3 + [(0, None)],
-    )
-    return np.asarray(found.x[:3]), float(found.x[3])
+def inradius_m(polyhedron: Polyhedron) -> float:
+    """Return the radius of a largest ball inside."""
+    return largest_ball(polyhedron.normals, polyhedron.offsets_m())[1]
 
 
 def angle_rad(first: Floats, second: Floats) -> float:

@@ -1,33 +1,34 @@
-"""The quarry: the rocks of one scene, drawn from the spec; the registry of families."""
+"""The quarry: the rocks of one scene, drawn from the spec, and the series of one knob each."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.errors import InputError
-from synth.rocks.ellipsoid import ellipsoid
-from synth.rocks.perturbed import perturbed
-from synth.rocks.polyhedron import tangent_cuts
+from synth.rocks.families import MIXED, draw_half_axes_m, draw_rock, polyhedra
 from synth.rocks.record import Rock
-from synth.rocks.rounded import UnsettledError, rounded_box, rounded_polyhedron
+from synth.rocks.relief import with_relief
+from synth.rocks.rounded import rounded_box
 from synth.spec.rocks import RocksSpec
 
 Floats = NDArray[np.float64]
 
-_ATTEMPTS = 60
-
 
 def quarry(spec: RocksSpec, *, rng: np.random.Generator) -> list[Rock]:
     """Return the rocks of one scene, in an order that tells nothing of their shape."""
-    if spec.series == "graded":
-        rocks = graded(spec, rng=rng)
+    if spec.series in SERIES:
+        rocks = SERIES[spec.series](spec, rng=rng)
         return [rocks[index] for index in rng.permutation(len(rocks))]
-    families = list(FAMILIES) if spec.family == "mixed" else [spec.family]
+    families = list(MIXED) if spec.family == "mixed" else [spec.family]
     turn = int(rng.integers(len(families)))
     return [
-        FAMILIES[families[(turn + index) % len(families)]](
-            spec, draw_half_axes_m(spec, rng=rng), rng
+        draw_rock(
+            spec,
+            families[(turn + index) % len(families)],
+            draw_half_axes_m(spec, rng=rng),
+            rng,
         )
         for index in range(spec.count)
     ]
@@ -45,62 +46,66 @@ def graded(spec: RocksSpec, *, rng: np.random.Generator) -> list[Rock]:
     half_axes_m = draw_half_axes_m(spec, rng=rng)
     low, high = (value / (1.0 + value) for value in spec.rounding)
     roundness = np.linspace(low, high, spec.count)
-    roundings = [float(rho / (1.0 - rho)) for rho in roundness]
-    if spec.family == "rounded-box":
-        return [rounded_box(half_axes_m, rounding=rounding) for rounding in roundings]
-    return _polyhedra(spec, half_axes_m, roundings, rng)
+    return _rounded(spec, [(half_axes_m, float(rho / (1.0 - rho))) for rho in roundness], rng)
 
 
-def draw_half_axes_m(spec: RocksSpec, *, rng: np.random.Generator) -> Floats:
-    """Return a >= b >= c, (3,), from the ranges of 2a, b/a and c/b."""
+def by_sphericity(spec: RocksSpec, *, rng: np.random.Generator) -> list[Rock]:
+    """Return rocks from flat and long to equant, of one polyhedron or box and one rounding.
+
+    b/a and c/b rise together in equal steps over their ranges; 2a stays. The roundness
+    r/(r_in + r) depends on the rounding over the inradius alone and is the same for all.
+    """
     longest = rng.uniform(*spec.diameter_m) / 2.0
-    middle = longest * rng.uniform(*spec.b_over_a)
-    return np.array([longest, middle, middle * rng.uniform(*spec.c_over_b)])
+    rounding = float(rng.uniform(*spec.rounding))
+    targets = []
+    for share in np.linspace(0.0, 1.0, spec.count):
+        b_over_a, c_over_b = (
+            low + share * (high - low) for low, high in (spec.b_over_a, spec.c_over_b)
+        )
+        ratios = np.array([1.0, b_over_a, b_over_a * c_over_b])
+        targets.append((longest * ratios, rounding))
+    return _rounded(spec, targets, rng)
 
 
-def _draw_integer(limits: tuple[int, int], rng: np.random.Generator) -> int:
-    return int(rng.integers(limits[0], limits[1] + 1))
+def by_relief(spec: RocksSpec, *, rng: np.random.Generator) -> list[Rock]:
+    """Return rocks of one form under one relief, from smooth to rough: its height alone differs."""
+    plain = msgspec.structs.replace(spec, relief=False, series="random")
+    family = "ellipsoid" if spec.family == "perturbed" else spec.family
+    base = draw_rock(plain, family, draw_half_axes_m(spec, rng=rng), rng)
+    seed = int(rng.spawn(1)[0].integers(2**62))
+    return [
+        replace(
+            with_relief(
+                base, relief_rms=rms, degrees=spec.relief_degrees, rng=np.random.default_rng(seed)
+            ),
+            family=spec.family,
+        )
+        for rms in np.linspace(*spec.relief_rms, spec.count).tolist()
+    ]
 
 
-def _polyhedra(
-    spec: RocksSpec, half_axes_m: Floats, roundings: list[float], rng: np.random.Generator
+def _rounded(
+    spec: RocksSpec, targets: list[tuple[Floats, float]], rng: np.random.Generator
 ) -> list[Rock]:
-    """Return one random polyhedron rounded in several ways, drawn anew until all hold the axes."""
-    for _ in range(_ATTEMPTS):
-        polyhedron = tangent_cuts(half_axes_m, cuts=_draw_integer(spec.cuts, rng), rng=rng)
-        try:
-            return [rounded_polyhedron(polyhedron, half_axes_m, rounding=k) for k in roundings]
-        except UnsettledError:
-            continue
-    raise InputError(
-        f"rocks.rounding: expected values that hold the half-axes, found {list(spec.rounding)}"
-    )
+    """Return one box or polyhedron with each of the half-axes and roundings."""
+    if spec.family == "rounded-box":
+        rocks = [rounded_box(half_axes_m, rounding=rounding) for half_axes_m, rounding in targets]
+    else:
+        rocks = polyhedra(spec, targets, rng=rng)
+    if not spec.relief:
+        return rocks
+    own = rng.spawn(1)[0]
+    rms, seed = float(own.uniform(*spec.relief_rms)), int(own.integers(2**62))
+    return [
+        with_relief(
+            rock, relief_rms=rms, degrees=spec.relief_degrees, rng=np.random.default_rng(seed)
+        )
+        for rock in rocks
+    ]
 
 
-def _draw_polyhedron(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> Rock:
-    return _polyhedra(spec, half_axes_m, [rng.uniform(*spec.rounding)], rng)[0]
-
-
-def _draw_box(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> Rock:
-    return rounded_box(half_axes_m, rounding=rng.uniform(*spec.rounding))
-
-
-def _draw_ellipsoid(_: RocksSpec, half_axes_m: Floats, __: np.random.Generator) -> Rock:
-    return ellipsoid(half_axes_m)
-
-
-def _draw_perturbed(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> Rock:
-    return perturbed(
-        half_axes_m,
-        relief_rms=rng.uniform(*spec.relief_rms),
-        degrees=spec.relief_degrees,
-        rng=rng,
-    )
-
-
-FAMILIES: Mapping[str, Callable[[RocksSpec, Floats, np.random.Generator], Rock]] = {
-    "rounded-polyhedron": _draw_polyhedron,
-    "rounded-box": _draw_box,
-    "ellipsoid": _draw_ellipsoid,
-    "perturbed": _draw_perturbed,
+SERIES: Mapping[str, Callable[..., list[Rock]]] = {
+    "graded": graded,
+    "sphericity": by_sphericity,
+    "relief": by_relief,
 }

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from synth.mesh import Mesh
+from synth.outlines import Form
 from synth.truth import Truth
 
 
@@ -15,3 +16,5 @@ class Rock:
     knobs: Mapping[str, float]  # what it was made from, each name with its unit
     mesh: Mesh
     truth: Truth
+    form: Form | None = None  # its exact outlines; None: they are the mesh's
+    source: str | None = None  # the file it was read from, and its SHA-256

@@ -3,16 +3,18 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from synth.box import nearby_box, smallest_box
 from synth.mesh import centroid_m, covariance_m2
+from synth.outlines import RoundedHull
 from synth.rocks.polyhedron import (
     Polyhedron,
     cuboid,
     functionals,
-    largest_ball,
+    inradius_m,
 )
 from synth.rocks.record import Rock
 from synth.rocks.rounding import rounded_area_m2, rounded_mesh, rounded_volume_m3
-from synth.truth import Truth, half_axes_of_covariance_m, nearby_box, smallest_box
+from synth.truth import Truth, half_axes_of_covariance_m
 
 Floats = NDArray[np.float64]
 
@@ -41,7 +43,7 @@ def hold_axes(
     """
     body = polyhedron
     for _ in range(_ROUNDS):
-        radius_m = rounding * largest_ball(body)[1]
+        radius_m = rounding * inradius_m(body)
         box = smallest_box(body.vertices_m, margin_m=radius_m)
         body = body.shifted(-box.centre_m).mapped(box.axes)
         if np.abs(half_axes_m / box.half_sides_m - 1.0).max() < _HELD_WITHIN:
@@ -49,7 +51,7 @@ def hold_axes(
         for _ in range(_STEPS):
             stretch = (half_axes_m - radius_m) / (box.half_sides_m - radius_m)
             body = body.mapped(np.diag(np.clip(stretch, 0.5, 2.0)))
-            radius_m = rounding * largest_ball(body)[1]
+            radius_m = rounding * inradius_m(body)
             box = nearby_box(body.vertices_m, margin_m=radius_m)
             body = body.shifted(-box.centre_m).mapped(box.axes)
             if np.abs(half_axes_m / box.half_sides_m - 1.0).max() < _SETTLED_WITHIN:
@@ -80,18 +82,21 @@ def _rock(
 ) -> Rock:
     """Return the record of P ⊕ B_r, its centroid at the origin."""
     mesh = rounded_mesh(body, radius_m)
-    inradius_m = largest_ball(body)[1]
+    inside_m = inradius_m(body)
     measured = functionals(body)
     truth = Truth(
         half_axes_box_m=box_m,
         half_axes_inertia_m=half_axes_of_covariance_m(covariance_m2(mesh)),
         volume_m3=rounded_volume_m3(measured, radius_m),
         area_m2=rounded_area_m2(measured, radius_m),
-        roundness=radius_m / (inradius_m + radius_m),
+        roundness=radius_m / (inside_m + radius_m),
+        radius_m=radius_m,
     )
+    shift_m = -centroid_m(mesh)
     return Rock(
         family=family,
-        knobs={**knobs, "radius_m": radius_m, "inradius_m": inradius_m},
-        mesh=mesh.moved(np.eye(3), -centroid_m(mesh)),
+        knobs={**knobs, "radius_m": radius_m, "inradius_m": inside_m},
+        mesh=mesh.moved(np.eye(3), shift_m),
         truth=truth,
+        form=RoundedHull(body.vertices_m + shift_m, radius_m),
     )

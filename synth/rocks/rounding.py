@@ -51,69 +51,72 @@ class _Builder:
         self._step_rad = float(np.clip(step_rad, *_STEPS_RAD))
         self._body = polyhedron
         self._radius_m = radius_m
-        self._points_m: list[Floats] = []
+        self._count = 0
+        self._owners: list[Ints] = []  # the polyhedron's vertex under each vertex of the mesh
         self._normals: list[Floats] = []
-        self._faces: list[tuple[int, int, int]] = []
+        self._faces: list[Ints] = []
         self._corners: dict[tuple[int, int], int] = {}
-        self._arcs: dict[tuple[int, int, int], list[int]] = {}
+        self._arcs: dict[tuple[int, int, int], Ints] = {}
 
     def add_face(self, face: int, loop: tuple[int, ...]) -> None:
         """Add a flat face, moved outward, as a fan."""
-        corners = [self._corner(vertex, face) for vertex in loop]
-        self._faces += [
-            (corners[0], corners[k], corners[k + 1]) for k in range(1, len(corners) - 1)
-        ]
+        corners = np.array([self._corner(vertex, face) for vertex in loop])
+        hub = np.full(len(corners) - 2, corners[0])
+        self._faces.append(np.column_stack([hub, corners[1:-1], corners[2:]]))
 
     def add_strip(self, v: int, w: int, f: int, g: int) -> None:
         """Add the cylinder's part along the edge v–w between the faces f and g."""
         at_v, at_w = self._arc(v, f, g), self._arc(w, f, g)
-        for k in range(len(at_v) - 1):
-            self._faces.append((at_w[k], at_v[k], at_v[k + 1]))
-            self._faces.append((at_w[k], at_v[k + 1], at_w[k + 1]))
+        self._faces.append(np.column_stack([at_w[:-1], at_v[:-1], at_v[1:]]))
+        self._faces.append(np.column_stack([at_w[:-1], at_v[1:], at_w[1:]]))
 
     def add_patch(self, vertex: int) -> None:
         """Add a vertex's spherical polygon: rings that shrink to its middle."""
         faces = self._faces_round(vertex)
-        loop: list[int] = []
-        for f, g in zip(faces, (*faces[1:], faces[0]), strict=True):
-            loop += self._arc(vertex, f, g)[:-1]
-        rim = np.array([self._normals[index] for index in loop])
+        turns = zip(faces, (*faces[1:], faces[0]), strict=True)
+        loop = np.concatenate([self._arc(vertex, f, g)[:-1] for f, g in turns])
+        rim = np.concatenate(self._normals)[loop]
         middle = self._body.normals[faces].sum(axis=0)
         middle /= np.linalg.norm(middle)
         reach_rad = max(angle_rad(middle, normal) for normal in self._body.normals[faces])
         rings = max(1, int(np.ceil(reach_rad / self._step_rad)))
-        outer = loop
-        for ring in range(1, rings):
-            normals = rim + (ring / rings) * (middle - rim)
-            normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-            inner = [self._add(vertex, normal) for normal in normals]
-            for k in range(len(loop)):
-                after = (k + 1) % len(loop)
-                self._faces.append((outer[k], outer[after], inner[after]))
-                self._faces.append((outer[k], inner[after], inner[k]))
-            outer = inner
-        top = self._add(vertex, middle)
-        self._faces += [(outer[k - 1], outer[k], top) for k in range(len(outer))]
+        share = (np.arange(1, rings) / rings)[:, None, None]
+        inner = self._add(vertex, (rim + share * (middle - rim)).reshape(-1, 3))
+        layers = np.vstack([loop, inner.reshape(-1, len(loop))])
+        after = np.roll(layers, -1, axis=1)
+        for outer, outer_next, within, within_next in zip(
+            layers[:-1], after[:-1], layers[1:], after[1:], strict=True
+        ):
+            self._faces.append(np.column_stack([outer, outer_next, within_next]))
+            self._faces.append(np.column_stack([outer, within_next, within]))
+        top = np.repeat(self._add(vertex, middle[None]), len(loop))
+        self._faces.append(np.column_stack([layers[-1], after[-1], top]))
 
     def mesh(self) -> Mesh:
         """Return what has been collected."""
+        normals = np.concatenate(self._normals)
+        cores_m = self._body.vertices_m[np.concatenate(self._owners)]
         return Mesh(
-            vertices_m=np.array(self._points_m),
-            faces=np.array(self._faces, dtype=np.int64),
-            normals=np.array(self._normals),
+            vertices_m=cores_m + self._radius_m * normals,
+            faces=np.concatenate(self._faces),
+            normals=normals,
         )
 
-    def _add(self, vertex: int, normal: Floats) -> int:
-        self._points_m.append(self._body.vertices_m[vertex] + self._radius_m * normal)
-        self._normals.append(normal)
-        return len(self._points_m) - 1
+    def _add(self, vertex: int, directions: Floats) -> Ints:
+        """Add mesh vertices round a vertex of the polyhedron; return their indices."""
+        self._normals.append(directions / np.linalg.norm(directions, axis=1, keepdims=True))
+        self._owners.append(np.full(len(directions), vertex))
+        added = np.arange(self._count, self._count + len(directions))
+        self._count += len(directions)
+        return added
 
     def _corner(self, vertex: int, face: int) -> int:
         if (vertex, face) not in self._corners:
-            self._corners[vertex, face] = self._add(vertex, self._body.normals[face])
+            added = self._add(vertex, self._body.normals[face][None])
+            self._corners[vertex, face] = int(added[0])
         return self._corners[vertex, face]
 
-    def _arc(self, vertex: int, f: int, g: int) -> list[int]:
+    def _arc(self, vertex: int, f: int, g: int) -> Ints:
         """Return the vertices from face f's normal to face g's, along the great circle."""
         if (vertex, f, g) not in self._arcs:
             start, end = self._body.normals[f], self._body.normals[g]
@@ -121,8 +124,8 @@ class _Builder:
             pieces = max(1, int(np.ceil(turn_rad / self._step_rad)))
             along_rad = turn_rad * np.arange(1, pieces)[:, None] / pieces
             normals = np.sin(turn_rad - along_rad) * start + np.sin(along_rad) * end
-            between = [self._add(vertex, normal / np.linalg.norm(normal)) for normal in normals]
-            arc = [self._corner(vertex, f), *between, self._corner(vertex, g)]
+            ends = self._corner(vertex, f), self._corner(vertex, g)
+            arc = np.concatenate([ends[:1], self._add(vertex, normals), ends[1:]])
             self._arcs[vertex, f, g] = arc
             self._arcs[vertex, g, f] = arc[::-1]
         return self._arcs[vertex, f, g]

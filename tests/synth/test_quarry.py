@@ -4,12 +4,17 @@ import numpy as np
 import pytest
 import trimesh
 
-from synth.mesh import centroid_m
+from synth.mesh import centroid_m, vertex_areas_m2
 from synth.rocks import FAMILIES, quarry
-from synth.rocks.ellipsoid import ellipsoid_mesh, unit_sphere
-from synth.rocks.perturbed import band_limited, perturbed, vertex_areas_m2
+from synth.rocks.ellipsoid import ellipsoid, ellipsoid_mesh
+from synth.rocks.families import MIXED
 from synth.rocks.quarry import graded
+from synth.rocks.relief import with_relief
+from synth.rocks.sphere import band_limited, unit_sphere
 from synth.spec.rocks import RocksSpec
+from tests.paths import EXAMPLES
+
+SCANS = tuple(str(EXAMPLES / "rocks" / f"apollo_sample{n}.ply") for n in (2, 16))
 
 
 def test_graded_rocks_differ_in_rounding_alone():
@@ -35,7 +40,7 @@ def test_order_in_the_scene_does_not_tell_rank():
 
 @pytest.mark.parametrize("family", FAMILIES)
 def test_every_family_is_closed_centred_and_repeatable(family):
-    spec = RocksSpec(count=1, family=family, series="random")
+    spec = RocksSpec(count=1, family=family, series="random", scans=SCANS)
     first, second = (quarry(spec, rng=np.random.default_rng(9))[0] for _ in range(2))
     np.testing.assert_array_equal(first.mesh.vertices_m, second.mesh.vertices_m)
     surface = trimesh.Trimesh(first.mesh.vertices_m, first.mesh.faces, process=False)
@@ -51,16 +56,16 @@ def test_every_family_is_closed_centred_and_repeatable(family):
 def test_mixed_holds_every_family():
     spec = RocksSpec(count=4, family="mixed", series="random")
     rocks = quarry(spec, rng=np.random.default_rng(2))
-    assert {rock.family for rock in rocks} == set(FAMILIES)
+    assert {rock.family for rock in rocks} == set(MIXED)
 
 
 def test_relief_has_the_rms_it_names():
-    half_axes_m = np.array([0.2, 0.16, 0.12])
-    rock = perturbed(half_axes_m, relief_rms=0.03, degrees=(3, 8), rng=np.random.default_rng(4))
-    assert rock.knobs["relief_rms_m"] == pytest.approx(0.03 * np.cbrt(np.prod(half_axes_m)))
     # On a sphere the displacement is |x| − R about the centre; the centroid moves by less than
     # the square of the relief (1e-3 of R), so the RMS is off by under 1 %.
-    ball = perturbed(np.full(3, 0.2), relief_rms=0.03, degrees=(3, 8), rng=np.random.default_rng(4))
+    base = ellipsoid(np.full(3, 0.2))
+    ball = with_relief(base, relief_rms=0.03, degrees=(3, 8), rng=np.random.default_rng(4))
+    assert ball.truth.relief_rms_m == pytest.approx(0.006, rel=1e-12)
+    assert ball.truth.relief_degrees == (3, 8)
     weights = vertex_areas_m2(ellipsoid_mesh(np.full(3, 0.2)))
     height_m = np.linalg.norm(ball.mesh.vertices_m, axis=1) - 0.2
     rms_m = np.sqrt(

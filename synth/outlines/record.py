@@ -1,0 +1,58 @@
+"""An outline's numbers, the forms that know theirs, and the integrals over polygons."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Outline:
+    """The shadow of a body under parallel rays, on a plane across them."""
+
+    area_m2: float
+    perimeter_m: float
+    axis_ratio: float  # minor over major axis of the ellipse with the same second moments
+    roundness: float | None  # Wadell's: mean radius of the corners over the inscribed disc's
+
+
+class Form(Protocol):
+    """A body in its rock's frame whose outlines are known."""
+
+    def outline(self, across: Floats) -> Outline:
+        """Return the outline on the plane of two rows of unit vectors across the rays, (2, 3)."""
+
+
+def plane_across(ray: Floats) -> Floats:
+    """Return two unit vectors, (2, 3), that with the ray (3,) make a right-handed frame."""
+    ray = ray / np.linalg.norm(ray)
+    first = np.cross(ray, np.eye(3)[np.argmin(np.abs(ray))])
+    first /= np.linalg.norm(first)
+    return np.stack([first, np.cross(ray, first)])
+
+
+def polygon_outline(points_m: Floats, *, roundness: float | None) -> Outline:
+    """Return the numbers of a polygon (n, 2), anticlockwise (Gauss's formulas)."""
+    following = np.roll(points_m, -1, axis=0)
+    crosses = points_m[:, 0] * following[:, 1] - points_m[:, 1] * following[:, 0]
+    total = points_m + following
+    area_m2 = float(crosses.sum() / 2.0)
+    centre_m = crosses @ total / (6.0 * area_m2)
+    squares = np.einsum("n,ni,nj->ij", crosses, points_m, points_m)
+    squares += np.einsum("n,ni,nj->ij", crosses, following, following)
+    squares += np.einsum("n,ni,nj->ij", crosses, total, total)
+    return Outline(
+        area_m2=area_m2,
+        perimeter_m=float(np.linalg.norm(following - points_m, axis=1).sum()),
+        axis_ratio=axis_ratio(squares / (24.0 * area_m2) - np.outer(centre_m, centre_m)),
+        roundness=roundness,
+    )
+
+
+def axis_ratio(covariance_m2: Floats) -> float:
+    """Return the minor over the major axis of the ellipse with these second moments, (2, 2)."""
+    low, high = np.linalg.eigvalsh(covariance_m2)
+    return float(np.sqrt(low / high))

@@ -1,0 +1,147 @@
+"""Relief: a band of bumps of exact RMS on any rock."""
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from synth.box import smallest_box
+from synth.errors import InputError
+from synth.mesh import (
+    Mesh,
+    area_m2,
+    centroid_m,
+    covariance_m2,
+    vertex_areas_m2,
+    vertex_normals,
+    volume_m3,
+)
+from synth.outlines import EllipsoidForm
+from synth.rocks.record import Rock
+from synth.rocks.resample import resampled
+from synth.rocks.sphere import SUBDIVISIONS, band_limited
+from synth.truth import Truth, half_axes_of_covariance_m
+
+Floats = NDArray[np.float64]
+
+_EDGES_PER_WAVE = 8.0
+_EDGE_RAD = 1.2  # of a facet's edge before the sphere is split, on average
+_FOR_EDGES, _FINEST = 6, 7  # splits for a form with edges; the most
+
+
+def with_relief(
+    rock: Rock, *, relief_rms: float, degrees: tuple[int, int], rng: np.random.Generator
+) -> Rock:
+    """Return the rock with relief on it, turned into its own smallest box.
+
+    The relief's height is a function of the direction from the centroid alone, of the given
+    degrees of spherical harmonics; its mean over the smooth surface is zero and its RMS there is
+    relief_rms × (abc)^(1/3), both exactly. It is laid along the normals of the ellipsoids with
+    the rock's half-axes: an ellipsoid's own, and on a rock with sharp edges they do not cross
+    as the edges' do. The mesh is refined to ten edges in the shortest wave. The truth is the
+    rough body's own, which the mesh is; only its area and roundness, which grow and fall with
+    the relief's finest detail, are no truths of its shape.
+
+    Raises:
+        InputError: a relief so high that it folds over.
+    """
+    size_m = float(np.cbrt(np.prod(rock.truth.half_axes_box_m)))
+    smooth = resampled(
+        rock.mesh, rock.truth.half_axes_box_m, subdivisions=_subdivisions(rock, degrees[1])
+    )
+    along = smooth.vertices_m / rock.truth.half_axes_box_m**2
+    rough = displaced(
+        smooth,
+        along=along,
+        rms_m=relief_rms * size_m,
+        degrees=degrees,
+        rng=rng,
+    )
+    _require_unfolded(smooth, rough, along)
+    knobs = {
+        **rock.knobs,
+        "relief_rms": relief_rms,
+        "relief_rms_m": relief_rms * size_m,
+        "degree_low": float(degrees[0]),
+        "degree_high": float(degrees[1]),
+        "mesh_area_m2": area_m2(rough),
+    }
+    return replace(
+        boxed(rock.family, rough, knobs=knobs, relief_rms_m=relief_rms * size_m, degrees=degrees),
+        source=rock.source,
+    )
+
+
+def displaced(
+    smooth: Mesh,
+    *,
+    along: Floats,
+    rms_m: float,
+    degrees: tuple[int, int],
+    rng: np.random.Generator,
+) -> Mesh:
+    """Return the mesh moved along directions (n, 3) by relief of exactly this RMS and no mean."""
+    weights_m2 = vertex_areas_m2(smooth)
+    directions = smooth.vertices_m / np.linalg.norm(smooth.vertices_m, axis=1, keepdims=True)
+    relief = band_limited(directions, degrees=degrees, rng=rng)
+    relief -= weights_m2 @ relief / weights_m2.sum()
+    relief_m = relief * rms_m / np.sqrt(weights_m2 @ relief**2 / weights_m2.sum())
+    moves = relief_m[:, None] * along / np.linalg.norm(along, axis=1, keepdims=True)
+    vertices_m = smooth.vertices_m + moves
+    faces = smooth.faces.copy()
+    return Mesh(vertices_m=vertices_m, faces=faces, normals=vertex_normals(vertices_m, faces))
+
+
+def boxed(
+    family: str,
+    mesh: Mesh,
+    *,
+    knobs: dict[str, float],
+    relief_rms_m: float | None,
+    degrees: tuple[int, int] | None,
+) -> Rock:
+    """Return the rock that a mesh is, turned into its smallest box, its centroid at the origin."""
+    box = smallest_box(mesh.vertices_m)
+    truth = Truth(
+        half_axes_box_m=box.half_sides_m,
+        half_axes_inertia_m=half_axes_of_covariance_m(covariance_m2(mesh)),
+        volume_m3=volume_m3(mesh),
+        area_m2=None,
+        roundness=None,
+        relief_rms_m=relief_rms_m,
+        relief_degrees=degrees,
+    )
+    return Rock(
+        family=family,
+        knobs=knobs,
+        mesh=mesh.moved(box.axes, -box.axes @ centroid_m(mesh)),
+        truth=truth,
+    )
+
+
+def _subdivisions(rock: Rock, last_degree: int) -> int:
+    """Return how often the sphere's 20 facets are split to hold the relief and the form."""
+    wave_rad = 2.0 * np.pi / last_degree
+    for subdivisions in range(SUBDIVISIONS, _FINEST):
+        if _EDGE_RAD / 2.0**subdivisions <= wave_rad / _EDGES_PER_WAVE and (
+            subdivisions >= _FOR_EDGES or isinstance(rock.form, EllipsoidForm)
+        ):
+            return subdivisions
+    return _FINEST
+
+
+def _require_unfolded(smooth: Mesh, rough: Mesh, along: Floats) -> None:
+    """Raise InputError where the relief has turned facets against its own direction, (n, 3)."""
+    folded = int((_upright(smooth, along) & ~_upright(rough, along)).sum())
+    if folded:
+        raise InputError(
+            f"rocks.relief_rms: expected relief that folds no facet over, "
+            f"found {folded} of {len(rough.faces)} folded"
+        )
+
+
+def _upright(mesh: Mesh, along: Floats) -> NDArray[np.bool_]:
+    """Tell which facets, (m,), face the way of a direction given at their vertices, (n, 3)."""
+    first, second, third = mesh.vertices_m[mesh.faces].transpose(1, 0, 2)
+    outward = np.cross(second - first, third - first)
+    return np.asarray(np.einsum("ij,ij->i", outward, along[mesh.faces].sum(axis=1)) > 0.0)

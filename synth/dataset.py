@@ -14,10 +14,10 @@ from synth import bop
 from synth.files import read_json, sha256, write_json, write_ply_mm, write_png
 from synth.glb import scene_glb
 from synth.light import light_scene
-from synth.paths import camera_distance_m, camera_of
+from synth.paths import camera_distance_m, camera_of, stations
 from synth.render import open_renderer, render_view
 from synth.render.view import View
-from synth.scene import Scene, build_scene, camera_distance_m
+from synth.scene import Scene, build_scene
 from synth.sensor import Capture, capture_view
 from synth.shape_truth import scene_gt_shape
 from synth.sheet import write_contact_sheet
@@ -36,22 +36,19 @@ def scene_name(index: int) -> str:
 def depth_scale_mm(spec: SceneSpec) -> float:
     """Return millimetres for a unit of the depth image, one for the whole dataset.
 
-    A rock cannot lie farther than its place's greatest distance from the centre, which is the
-    camera's own, so depths reach at most twice that plus a rock; but a rock also keeps within the
-    ring's common field, whose far edge is the ground seen along the frame's top. The nearer bound
-    counts, and is spread over 65,535 steps, rounded up to a hundredth of a millimetre.
+    Rocks lie on the ground within a known reach of the scene's centre. Seen along a level distance
+    that far, and no lower than the centre, none can be deeper in any view than the centre's depth
+    and the reach's share along the axis; that depth is spread over 65,535 steps, rounded up to a
+    hundredth of a millimetre.
     """
-    camera = camera_of(spec.camera)
-    distance_m = camera_distance_m(spec.camera)
-    elevation_rad = np.deg2rad(spec.camera.elevation_deg)
-    reach_m = distance_m + 2.0 * spec.rocks.diameter_m[1]
-    if spec.views.count > 1:
-        half_field = max(camera.width / camera.fx, camera.height / camera.fy) / 2.0
-        reach_m = min(reach_m, distance_m * half_field * 1.5 + spec.rocks.diameter_m[1])
+    reach_m = camera_distance_m(spec.camera) + 2.0 * spec.rocks.diameter_m[1]
     if spec.population.kind != "count":
         reach_m = spec.population.radius_m + spec.population.d_max_m
-    farthest_mm = 1000.0 * (distance_m + reach_m * np.cos(elevation_rad))
-    return float(np.ceil(farthest_mm / 65535.0 * 100.0) / 100.0)
+    farthest_m = max(
+        float(pose.translation_m[2] + reach_m * np.hypot(*pose.world_to_camera[2, :2]))
+        for pose in stations(spec.camera, spec.views)
+    )
+    return float(np.ceil(1000.0 * farthest_m / 65535.0 * 100.0) / 100.0)
 
 
 def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -> str:

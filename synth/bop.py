@@ -16,6 +16,7 @@ from synth.scene import Scene
 Floats = NDArray[np.float64]
 Table = dict[str, Any]
 
+_NOWHERE = [-1, -1, -1, -1]  # BOP's box of a rock that is not seen
 MAX_ROCKS = 1000  # object ids leave this much room for each scene
 
 
@@ -86,8 +87,8 @@ def _info(
 ) -> Table:
     count_all, count_visible = int(silhouette.sum()), int(visible.sum())
     return {
-        "bbox_obj": _box(silhouette),
-        "bbox_visib": _box(visible),
+        "bbox_obj": _bop_box(silhouette) if count_visible else _NOWHERE,
+        "bbox_visib": _bop_box(visible),
         "px_count_all": count_all,
         "px_count_valid": int((silhouette & known).sum()),
         "px_count_visib": count_visible,
@@ -175,11 +176,17 @@ def run_lengths(mask: NDArray[np.bool_]) -> list[int]:
     return [int(run) for run in (runs[:-1] if runs[-1] == 0 else runs)]
 
 
+def _bop_box(mask: NDArray[np.bool_]) -> list[int]:
+    """Return left, top, width, height as BOP's tools count: from the first pixel to the last."""
+    if not mask.any():
+        return _NOWHERE
+    left, top, width, height = _box(mask)
+    return [left, top, width - 1, height - 1]
+
+
 def _box(mask: NDArray[np.bool_]) -> list[int]:
-    """Return left, top, width, height of a mask, or −1 four times where it is empty."""
+    """Return left, top, width, height of a mask that is not empty, as COCO counts: in pixels."""
     rows, cols = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
-    if not len(rows):
-        return [-1, -1, -1, -1]
     return [
         int(cols[0]),
         int(rows[0]),

@@ -71,15 +71,26 @@ def _claim(spec: SceneSpec, out: Path, renderer: RendererName) -> RendererName:
     recorded = found.get("backend")
     wanted = recorded if renderer == "auto" and recorded in BACKENDS else renderer
     backend = choose_backend(wanted)
-    ours = plain(identity(spec, backend))
-    differing = [key for key in ours if found.get(key) != ours[key]]
+    ours, theirs = _leaves(plain(identity(spec, backend))), _leaves(found)
+    differing = [key for key in ours if key != "spec.renderer" and theirs.get(key) != ours[key]]
     if differing:
+        key = differing[0]
         raise InputError(
-            f"{out}: expected an empty folder or a dataset of the same spec, "
-            f"found one of another {differing[0]}"
+            f"{out}: expected an empty folder or this very dataset, with {key} {ours[key]}, "
+            f"found one with {theirs.get(key)}"
         )
     _begin(spec, backend, out)
     return backend
+
+
+def _leaves(table: object, prefix: str = "") -> dict[str, object]:
+    """Return the values of nested tables under their dotted names."""
+    if not isinstance(table, dict):
+        return {prefix: table}
+    leaves: dict[str, object] = {}
+    for key, value in table.items():
+        leaves.update(_leaves(value, f"{prefix}.{key}" if prefix else str(key)))
+    return leaves
 
 
 def _identity_files(out: Path) -> Sequence[Path]:

@@ -81,11 +81,12 @@ def axis_ratio(corners: Floats) -> float:
     return float(np.sqrt(low / high))
 
 
-def rectangle(corners: Floats) -> tuple[float, float, float]:
+def rectangle(corners: Floats, *, margin: float = 0.0) -> tuple[float, float, float]:
     """Return the smallest rectangle round a convex polygon: long side, short side, bearing (rad).
 
     One of its sides is flush with an edge of the polygon (Freeman and Shapira 1975). The bearing
-    is the long side's.
+    is the long side's. With a margin each corner is thickened to a disc of that radius, which
+    adds twice the margin to every side, and so can make another rectangle the smallest.
     """
     edges = np.roll(corners, -1, axis=0) - corners
     bearings = np.arctan2(edges[:, 1], edges[:, 0])
@@ -93,7 +94,8 @@ def rectangle(corners: Floats) -> tuple[float, float, float]:
     for bearing in bearings:
         along = corners @ np.array([np.cos(bearing), np.sin(bearing)])
         across = corners @ np.array([-np.sin(bearing), np.cos(bearing)])
-        length, width = float(np.ptp(along)), float(np.ptp(across))
+        length = float(np.ptp(along)) + 2.0 * margin
+        width = float(np.ptp(across)) + 2.0 * margin
         turned = bearing if length >= width else bearing + np.pi / 2.0
         best = min(best, (length * width, max(length, width), min(length, width), float(turned)))
     return best[1:]

@@ -18,7 +18,9 @@ _BOTH_SIDES = (0.35, 0.95)  # short over long side, ends of the series `both`
 _SIDES = (0.18, 0.96)  # short over long side, ends of the series `sphericity`
 _CORNER_ROUNDNESS = 0.6  # of the series `sphericity`
 _CORNERS = 7
-_STEPS = 200
+_STEPS = 400
+_ATTEMPTS = 100  # polygons drawn before the values count as impossible
+_MOST_SHAPES = 100
 _TOLERANCE = 1e-9
 _CLASSES = np.arange(1, 10) / 10.0  # of roundness, the chart's rows
 _CHART_SIDES = np.linspace(0.30, 0.94, 9)  # short over long side, the chart's columns
@@ -56,7 +58,7 @@ def shape_series(
     `krumbein` has 81 shapes, always.
 
     Raises:
-        InputError: an unknown series, a count below 1, values out of range, or both given.
+        InputError: an unknown series, a count out of range, values out of range, or both given.
     """
     if series == CHART:
         if knobs is not None or count not in (None, _CLASSES.size * _CHART_SIDES.size):
@@ -68,8 +70,8 @@ def shape_series(
     found = SERIES[series]
     if knobs is None:
         steps = 4 if count is None else count
-        if steps < 1:
-            raise InputError(f"--count: expected at least 1, found {steps}")
+        if not 1 <= steps <= _MOST_SHAPES:
+            raise InputError(f"--count: expected 1 to {_MOST_SHAPES}, found {steps}")
         return found.make(np.linspace(*found.ends, steps), rng)
     if count not in (None, len(knobs)):
         raise InputError(f"--count: expected {len(knobs)} as --knobs has, found {count}")
@@ -88,8 +90,7 @@ def roundness_series(knobs: Floats, rng: np.random.Generator) -> list[Shape]:
     The knob is roundness. The polygon is stretched along the rectangle's sides so that the
     rounded shape fills it: sides of a sum are sums of sides.
     """
-    polygon = _random_polygon(rng)
-    return [_held(polygon, float(value), _RECTANGLE_RATIO) for value in knobs]
+    return _settled(knobs.tolist(), [_RECTANGLE_RATIO] * len(knobs), rng)
 
 
 def both_series(knobs: Floats, rng: np.random.Generator) -> list[Shape]:
@@ -97,12 +98,7 @@ def both_series(knobs: Floats, rng: np.random.Generator) -> list[Shape]:
 
     The knob is roundness; short over long side rises with it, in proportion.
     """
-    polygon = _random_polygon(rng)
-    ratios = np.interp(knobs, _ROUNDNESS, _BOTH_SIDES)
-    return [
-        _held(polygon, float(value), float(ratio))
-        for value, ratio in zip(knobs, ratios, strict=True)
-    ]
+    return _settled(knobs.tolist(), np.interp(knobs, _ROUNDNESS, _BOTH_SIDES).tolist(), rng)
 
 
 def chart(rng: np.random.Generator) -> list[Shape]:
@@ -112,7 +108,7 @@ def chart(rng: np.random.Generator) -> list[Shape]:
     outline of its own polygon, and every roundness and side known exactly.
     """
     return [
-        _held(_random_polygon(rng), float(roundness), float(ratio))
+        _settled([float(roundness)], [float(ratio)], rng)[0]
         for roundness in _CLASSES
         for ratio in _CHART_SIDES
     ]
@@ -146,32 +142,44 @@ SERIES: Mapping[str, Series] = {
 NAMES = (*SERIES, CHART)
 
 
-def _held(polygon: Floats, roundness: float, ratio: float) -> Shape:
+def _held(polygon: Floats, roundness: float, ratio: float) -> Shape | None:
     """Return the polygon rounded to a roundness inside a rectangle of a ratio.
 
     Each step turns the polygon into its rectangle and stretches it by the side wanted over the
     side found. The inscribed disc, and with it the rounding, goes with the short side; along the
-    long side a power makes up for the rounding's share.
+    long side a power makes up for the rounding's share. None where two rectangles are so nearly
+    the smallest that the steps never settle on one.
     """
     target = 0.85 * LONG_SIDE_PX * np.array([1.0, ratio])
     factor = roundness / (1.0 - roundness)
     corners = polygon
     for _ in range(_STEPS):
         radius = factor * largest_disc_px(corners)
-        long, short, bearing = rectangle(corners)
-        core = np.array([long, short])
-        power = np.array([(long + 2.0 * radius) / long, 1.0])
-        stretch = (target / (core + 2.0 * radius)) ** power
-        corners = corners @ _turn(-bearing).T * np.clip(stretch, 0.5, 2.0)
+        long, short, bearing = rectangle(corners, margin=radius)
+        stretch = target / np.array([long, short])
         if np.abs(stretch - 1.0).max() < _TOLERANCE:
-            break
-    radius = factor * largest_disc_px(corners)
-    long, short, _ = rectangle(corners)
-    return Shape(
-        outline=RoundedPolygon(corners_px=corners, radius_px=radius),
-        knob=roundness,
-        sides_px=(long + 2.0 * radius, short + 2.0 * radius),
-    )
+            outline = RoundedPolygon(corners_px=corners, radius_px=radius)
+            return Shape(outline=outline, knob=roundness, sides_px=(long, short))
+        stretch **= np.array([long / (long - 2.0 * radius), 1.0])
+        corners = corners @ _turn(-bearing).T * np.clip(stretch, 0.5, 2.0)
+    return None
+
+
+def _settled(
+    roundness: Sequence[float], ratios: Sequence[float], rng: np.random.Generator
+) -> list[Shape]:
+    """Return one random polygon in all those roundnesses and ratios, drawn anew until all settle.
+
+    Raises:
+        InputError: no polygon of many settles.
+    """
+    for _ in range(_ATTEMPTS):
+        polygon = _random_polygon(rng)
+        shapes = [_held(polygon, *pair) for pair in zip(roundness, ratios, strict=True)]
+        settled = [shape for shape in shapes if shape is not None]
+        if len(settled) == len(shapes):
+            return settled
+    raise InputError(f"--knobs: expected values that one polygon can take, found {list(roundness)}")
 
 
 def _random_polygon(rng: np.random.Generator) -> Floats:

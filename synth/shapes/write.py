@@ -5,6 +5,7 @@ import io
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import cv2
 import numpy as np
@@ -19,6 +20,7 @@ from synth.shapes.svg import svg_text
 
 Floats = NDArray[np.float64]
 
+_FILES = ("image.png", "image.svg", "labels.png", "truth.csv")
 _CELL_PX = 260  # a shape's share of the row
 _CHART_COLUMNS = 9
 _SUBPIXELS = 4
@@ -96,30 +98,49 @@ def write_series(
     """Write image.png, image.svg, labels.png and truth.csv of a series into a folder.
 
     Raises:
-        InputError: an unknown series, a count, values or a jitter out of range, or a place that
-            is no folder.
+        InputError: an unknown series, a count, values or a jitter out of range, or a folder
+            that is a file or holds other files.
     """
     if not 0.0 <= jitter_rms_px <= _MOST_JITTER_PX:
         raise InputError(f"--jitter: expected 0 to {_MOST_JITTER_PX:g} px, found {jitter_rms_px:g}")
+    _check_free(out)
     rng = np.random.default_rng([seed])
     shapes = shape_series(series, count=count, knobs=knobs, rng=rng)
     columns = _CHART_COLUMNS if series == CHART else None
     drawing = draw_series(shapes, rng=rng, columns=columns, jitter_rms_px=jitter_rms_px)
+    svg = svg_text(shapes, drawing.drawn_px, drawing.middles_px, shape=drawing.labels.shape)
     try:
         out.mkdir(parents=True, exist_ok=True)
+        with TemporaryDirectory(dir=out, prefix=".") as name:
+            draft = Path(name)
+            write_png(draft / "image.png", drawing.image)
+            write_png(draft / "labels.png", drawing.labels)
+            (draft / "image.svg").write_text(svg, encoding="utf-8", newline="")
+            table = _table_text(series, drawing.rows)
+            (draft / "truth.csv").write_text(table, encoding="utf-8", newline="")
+            for file in _FILES:
+                (draft / file).replace(out / file)
     except OSError as error:
         raise InputError(f"{out}: expected a folder to write to, found {error.strerror}") from error
-    write_png(out / "image.png", drawing.image)
-    write_png(out / "labels.png", drawing.labels)
-    svg = svg_text(shapes, drawing.drawn_px, drawing.middles_px, shape=drawing.labels.shape)
-    (out / "image.svg").write_text(svg, encoding="utf-8", newline="")
+
+
+def _check_free(out: Path) -> None:
+    """Raise InputError unless a folder is new, empty or holds an earlier drawing and no more."""
+    if out.exists() and not out.is_dir():
+        raise InputError(f"{out}: expected a folder to write to, found a file")
+    held = {path.name for path in out.iterdir()} if out.is_dir() else set()
+    if held and held != set(_FILES):
+        raise InputError(f"{out}: expected an empty folder or a drawing, found other files")
+
+
+def _table_text(series: str, rows: Sequence[dict[str, float]]) -> str:
     text = io.StringIO()
-    writer = csv.DictWriter(text, fieldnames=["rock", "series", *list(drawing.rows[0])[1:]])
+    writer = csv.DictWriter(text, fieldnames=["rock", "series", *list(rows[0])[1:]])
     writer.writeheader()
-    for row in drawing.rows:
+    for row in rows:
         values = {name: f"{value:.10g}" for name, value in row.items()}
         writer.writerow({**values, "series": series})
-    (out / "truth.csv").write_text(text.getvalue(), encoding="utf-8", newline="")
+    return text.getvalue()
 
 
 def _truth(index: int, shape: Shape, jitter_rms_px: float) -> dict[str, float]:

@@ -70,7 +70,7 @@ def test_a_whole_dataset_is_left_alone(dataset):
 
 def test_another_spec_or_other_files_are_refused(dataset, tmp_path):
     other = SceneSpec(seed=7)
-    with pytest.raises(InputError, match="another spec"):
+    with pytest.raises(InputError, match=r"with spec\.seed 7, found one with "):
         generate_dataset(other, dataset)
     (tmp_path / "note.txt").write_text("mine")
     with pytest.raises(InputError, match="found other files"):
@@ -135,8 +135,13 @@ def test_depth_image_holds_the_plane(dataset):
 
 
 @pytest.mark.parametrize("preset", ["imp", "msl-navcam"])
-def test_depth_scale_reaches_every_rock(preset):
-    spec = SceneSpec(rocks=RocksSpec(family="rounded-box"), camera=CameraSpec(preset=preset))
+@pytest.mark.parametrize(("elevation_deg", "count"), [(32.0, 4), (8.0, 2), (5.0, 2)])
+def test_depth_scale_reaches_every_rock(preset, elevation_deg, count):
+    spec = SceneSpec(
+        rocks=RocksSpec(family="rounded-box", count=4, spacing=1.0),
+        camera=CameraSpec(preset=preset, elevation_deg=elevation_deg),
+        views=ViewsSpec(count=count),
+    )
     reach_m = depth_scale_mm(spec) * 65.535
     for index in range(3):
         scene = build_scene(spec, index)

@@ -127,7 +127,7 @@ def test_gt_info_counts_the_masks_and_the_depth(dataset):
             assert info["visib_fract"] == pytest.approx(seen.sum() / whole.sum(), rel=1e-9)
             for key, mask in (("bbox_obj", whole), ("bbox_visib", seen)):
                 rows, cols = np.nonzero(mask)
-                sides = [np.ptp(cols) + 1, np.ptp(rows) + 1]
+                sides = [np.ptp(cols), np.ptp(rows)]  # BOP's: from the first pixel to the last
                 assert info[key] == [cols.min(), rows.min(), *sides]
 
 

@@ -58,6 +58,14 @@ def test_roundness_rises_in_one_rectangle(seed):
     np.testing.assert_allclose(sides, np.broadcast_to(sides[0], sides.shape), rtol=1e-6)
 
 
+@pytest.mark.parametrize("seed", range(40))
+def test_the_sides_are_the_smallest_rectangle_of_the_rounded_outline(seed):
+    for shape in shape_series("roundness", count=4, rng=np.random.default_rng([seed])):
+        long, short, _ = rectangle(shape.outline.outline_px())
+        # The fine chords stay 1e-4 of the radius inside the arcs, and may turn by as much.
+        np.testing.assert_allclose((long, short), shape.sides_px, rtol=1e-3)
+
+
 def test_sphericity_rises_at_one_roundness():
     shapes = shape_series("sphericity", count=5, rng=np.random.default_rng(0))
     np.testing.assert_allclose([s.outline.roundness() for s in shapes], 0.6, rtol=1e-6)
@@ -81,7 +89,7 @@ def test_chart_has_nine_classes_by_nine(tmp_path):
     shapes = shape_series("krumbein", rng=np.random.default_rng(4))
     roundness = np.array([shape.outline.roundness() for shape in shapes]).reshape(9, 9)
     ratios = np.array([s.sides_px[1] / s.sides_px[0] for s in shapes]).reshape(9, 9)
-    # Sides settle to 1e-9 of themselves or within 200 steps; roundness is exact by construction.
+    # Sides settle to 1e-9 of themselves; roundness is exact by construction.
     np.testing.assert_allclose(roundness, np.tile(np.arange(1, 10)[:, None] / 10, 9), rtol=1e-9)
     np.testing.assert_allclose(ratios, np.tile(np.linspace(0.3, 0.94, 9), (9, 1)), rtol=1e-6)
     for shape in shapes[::13]:
@@ -132,8 +140,9 @@ def test_svg_holds_what_was_drawn_and_the_exact_outline(tmp_path):
         exact = outline.outline_px() * [1.0, -1.0]
         offset = ends[0] - outline.joints_px()[0, 1] * [1.0, -1.0]
         low, high = (exact + offset).min(axis=0), (exact + offset).max(axis=0)
-        # The pen strays by three times its RMS, 1.1 px, at most, and pixels are whole.
-        np.testing.assert_allclose(np.concatenate([low, high]), box, atol=1.7)
+        # The pen strays by three times its RMS, 1.1 px, at most, pixels are whole, and a corner's
+        # tip narrower than a pixel may hold no pixel's centre.
+        np.testing.assert_allclose(np.concatenate([low, high]), box, atol=2.2)
 
 
 @pytest.mark.parametrize("series", ["roundness", "sphericity"])
@@ -167,3 +176,14 @@ def test_bad_series_and_count(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(InputError, match="expected a folder"):
         write_series("roundness", tmp_path / "file")
+
+
+def test_a_folder_of_other_files_is_refused(tmp_path):
+    (tmp_path / "truth.csv").write_text("precious")
+    with pytest.raises(InputError, match="found other files"):
+        write_series("roundness", tmp_path)
+    assert (tmp_path / "truth.csv").read_text() == "precious"
+    write_series("roundness", tmp_path / "new")
+    write_series("sphericity", tmp_path / "new")  # an earlier drawing gives way
+    assert "sphericity" in (tmp_path / "new" / "truth.csv").read_text()
+    assert len(list((tmp_path / "new").iterdir())) == 4

@@ -79,9 +79,8 @@ def fit_ellipsoid(points_m: NDArray[np.float64]) -> EllipsoidFit | None:
     size = float(np.linalg.norm(points_m - centroid, axis=1).max())
     points = (points_m - centroid) / size
     bounds = (np.log(SMALLEST), np.log(LARGEST))
-    # every k-th of a fixed shuffle: every k-th in order would pick columns of the image
-    order = np.random.default_rng(0).permutation(len(points))
-    sketch = points[order[:SKETCH]]
+    # a fixed shuffle's first: every k-th in order would pick columns of the image
+    sketch = points[np.random.default_rng(0).permutation(len(points))[:SKETCH]]
     starts = _starts(spread / size**2, directions, centroid / np.linalg.norm(centroid))
     nearest, *_ = min((_descend(sketch, start, bounds) for start in starts), key=lambda run: run[1])
     state, cost, converged = _descend(points, nearest, bounds)

@@ -1,6 +1,5 @@
 """Datasets: the same bytes whatever the processes, interruptions resumed, strangers refused."""
 
-import hashlib
 import json
 import shutil
 
@@ -16,6 +15,7 @@ from synth.scene import build_scene
 from synth.spec import SceneSpec
 from synth.spec.rocks import RocksSpec
 from synth.spec.view import CameraSpec, ViewsSpec
+from tests.digests import digests
 
 SPEC = SceneSpec(
     seed=6,
@@ -24,14 +24,6 @@ SPEC = SceneSpec(
     camera=CameraSpec(preset="imp"),
     views=ViewsSpec(count=2),
 )
-
-
-def digests(folder):
-    return {
-        path.relative_to(folder).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest()
-        for path in folder.rglob("*")
-        if path.is_file()
-    }
 
 
 @pytest.fixture(scope="module")

@@ -15,6 +15,7 @@ from rockshape.cli import main
 from synth.dataset import PARTIAL
 from synth.generate import generate_dataset
 from synth.spec import load_spec
+from tests.digests import digests
 
 SPEC = """
 seed = 21
@@ -34,14 +35,6 @@ read_noise_e = 25
 jpeg_quality = 90
 """
 _PATIENCE_SECONDS = 60
-
-
-def digests(folder):
-    return {
-        path.relative_to(folder).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest()
-        for path in folder.rglob("*")
-        if path.is_file()
-    }
 
 
 @pytest.fixture(scope="module")

@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-import cv2
 import msgspec
 import numpy as np
 from numpy.typing import NDArray
+from skimage.draw import polygon as fill_polygon
 
 from rockshape.errors import InputError
 from rockshape.io.files import read_bytes
@@ -79,11 +79,11 @@ def _mask(path: Path, annotation: _Annotation, shape: tuple[int, ...]) -> NDArra
             raise InputError(f"{where}: expected run lengths over {shape[:2]}")
         values = np.arange(len(outline.counts)) % 2 == 1
         return np.repeat(values, outline.counts).reshape(cols, rows).T
-    mask = np.zeros(shape[:2], dtype=np.uint8)
+    mask = np.zeros(shape[:2], dtype=bool)
     for polygon in outline:
         if len(polygon) < 6 or len(polygon) % 2:
             raise InputError(f"{where}: expected polygons of three points or more")
         # COCO's corners are pixel corners: half a pixel before the centres
-        corners = np.array(polygon).reshape(-1, 2) - 0.5
-        cv2.fillPoly(mask, [np.rint(corners * 16).astype(np.int32)], 1, shift=4)
-    return mask.astype(bool)
+        x, y = np.array(polygon).reshape(-1, 2).T - 0.5
+        mask[fill_polygon(y, x, shape=shape[:2])] = True
+    return mask

@@ -21,7 +21,7 @@ from synth.rocks.rounded import UnsettledError, rounded_box, rounded_polyhedron
 from synth.rocks.scan import scan
 from synth.rocks.superellipsoid import superellipsoid
 
-SIZE_PX, FIELD_M, FINE = 280, 0.52, 2
+SIZE_PX, FIELD_M, FINE = 280, 0.6, 2
 HALF_AXES_M = np.array([0.2, 0.165, 0.125])
 CAMERA_RAD, SUN = np.deg2rad(28.0), np.array([-0.62, -0.35, 0.62])
 SKY, ALBEDO, GROUND_ALBEDO = 0.22, 0.5, 0.42
@@ -58,7 +58,7 @@ def picture(rock: Rock, *, yaw_rad: float) -> np.ndarray:
     normal = np.einsum("nk,nkj->nj", share, normals[face])
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
     sun = SUN / np.linalg.norm(SUN)
-    lifted = (points_m + 2e-4 * normal + 1e-3 * sun).astype(np.float32)
+    lifted = (points_m + 2e-4 * normal + 4e-3 * sun).astype(np.float32)
     towards = np.broadcast_to(sun, lifted.shape).astype(np.float32)
     lit = scene.run(lifted, towards, query="OCCLUDED") < 0
     albedo = np.where(found["primID"] < len(mesh.faces), ALBEDO, GROUND_ALBEDO)
@@ -84,7 +84,7 @@ def broken(seed: int, **changes: float) -> Rock:
         cuts=12,
         chips=24,
         slab=0.3,
-        abrasion=0.25,
+        abrasion=0.12,
         waviness=0.035,
         relief_rms=0.005,
         relief_degrees=(15, 45),
@@ -93,9 +93,9 @@ def broken(seed: int, **changes: float) -> Rock:
     return realistic(HALF_AXES_M, replace(usual, **changes), rng=np.random.default_rng(seed))
 
 
-def rough(base: Rock, rms: float) -> Rock:
+def rough(base: Rock, rms: float, degrees: tuple[int, int] = (5, 25)) -> Rock:
     """Return a rock under one relief of a given height."""
-    return with_relief(base, relief_rms=rms, degrees=(5, 25), rng=np.random.default_rng(8))
+    return with_relief(base, relief_rms=rms, degrees=degrees, rng=np.random.default_rng(8))
 
 
 def sheets(scans: list[Path]) -> dict[str, list[Callable[[], Rock]]]:
@@ -132,10 +132,10 @@ def sheets(scans: list[Path]) -> dict[str, list[Callable[[], Rock]]]:
             lambda path=path, rms=rms: (
                 scan(str(path), diameter_m=0.38)
                 if rms == 0.0
-                else rough(scan(str(path), diameter_m=0.38), rms)
+                else rough(scan(str(path), diameter_m=0.38), rms, (10, 50))
             )
             for path, rms in zip(
-                [*scans, *scans, scans[0]], (0.0, 0.0, 0.006, 0.006, 0.015), strict=True
+                [*scans, *scans, scans[0]], (0.0, 0.0, 0.008, 0.008, 0.012), strict=True
             )
         ],
     }

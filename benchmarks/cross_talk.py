@@ -37,7 +37,6 @@ def truths(rock: Rock) -> dict[str, float]:
     a, b, c = truth.half_axes_box_m
     scale = float(np.cbrt(a * b * c))
     nothing = float("nan")
-    rounds = [nothing if o.roundness is None else o.roundness for o in outlines]
     return {
         "b/a": b / a,
         "c/b": c / b,
@@ -46,7 +45,7 @@ def truths(rock: Rock) -> dict[str, float]:
         "Krumbein": truth.krumbein_sphericity(),
         "Wadell": truth.wadell_sphericity() or nothing,
         "roundness": nothing if truth.roundness is None else truth.roundness,
-        "2-D roundness": float(np.mean(rounds)),
+        "2-D roundness": float(np.mean([o.roundness for o in outlines])),
         "2-D axis ratio": float(np.mean([o.axis_ratio for o in outlines])),
         "relief": nothing if truth.relief_rms_m is None else truth.relief_rms_m / scale,
         "V/8abc": truth.volume_m3 / (8.0 * a * b * c),

@@ -10,7 +10,7 @@ from synth.spec import SceneSpec
 from synth.spec.view import CameraSpec, ViewsSpec
 
 _VIEWS = 10  # frames of a scene
-_SHOWN = (50, 100, 200, 300, 400, 500)
+_SHOWN = tuple(range(50, 501, 50))
 
 
 def main() -> None:

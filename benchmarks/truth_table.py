@@ -1,116 +1,183 @@
-"""Print, for every family, its truth beside what its mesh and a fine rendering measure."""
+"""Print, for every family with a truth of its own, how near meshes and pictures come to it."""
 
 import argparse
-from pathlib import Path
 
 import cv2
 import numpy as np
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
+from scipy.optimize import linprog
+from scipy.spatial import ConvexHull
 
-from synth.mesh import area_m2, covariance_m2, volume_m3
-from synth.outlines import Outline, mesh_form, plane_across
+from synth.mesh import Mesh, area_m2, covariance_m2, volume_m3
+from synth.outlines import EllipsoidForm, RoundedHull, SuperellipsoidForm, mesh_form, plane_across
 from synth.outlines.record import axis_ratio
-from synth.rocks import FAMILIES, Rock, quarry
+from synth.rocks import Rock, quarry
+from synth.rocks.ellipsoid import ellipsoid_mesh
+from synth.rocks.polyhedron import from_half_spaces
+from synth.rocks.rounding import rounded_mesh
+from synth.rocks.sphere import SUBDIVISIONS
+from synth.rocks.superellipsoid import SUBDIVISIONS as FINER_SUBDIVISIONS
+from synth.rocks.superellipsoid import superellipsoid_mesh
 from synth.spec.rocks import RocksSpec
 from synth.truth import half_axes_of_covariance_m
 
-RAY = np.array([0.35, -0.55, 0.76])
+FAMILIES = ("rounded-polyhedron", "rounded-box", "ellipsoid", "superellipsoid")
+ACROSS = plane_across(np.array([0.35, -0.55, 0.76]))
+HALVINGS = 2  # of the datasets' facets' edges in the refined mesh
+EDGE_SPLIT = 16  # the picture's edge pixels are split into so many squared
 
 
-def rendered(rock: Rock, count: int) -> tuple[float, float, float, float]:
-    """Return area, perimeter (of the hull), axis ratio and inscribed radius of a fine picture.
-
-    The perimeter is π times the mean width over all directions (Cauchy).
-    """
-    across = plane_across(RAY)
-    scene = EmbreeScene(robust=True)
-    TriangleMesh(scene, rock.mesh.vertices_m[rock.mesh.faces].astype(np.float32))
-    half_m = 1.05 * float(np.linalg.norm(rock.mesh.vertices_m, axis=1).max())
-    pixel_m = 2.0 * half_m / count
-    grid = (np.arange(count) + 0.5) * pixel_m - half_m
-    ray = np.cross(across[0], across[1])
-    mask = np.zeros((count, count), dtype=np.uint8)
-    for row, height in enumerate(grid):
-        origins = grid[:, None] * across[0] + height * across[1] - 3.0 * half_m * ray
-        rays = np.broadcast_to(ray, origins.shape).astype(np.float32)
-        mask[row] = scene.run(origins.astype(np.float32), rays) >= 0
-    points_m = np.argwhere(mask) * pixel_m
-    turn_rad = np.pi * np.arange(360) / 360
-    hull_m = points_m[cv2.convexHull(np.argwhere(mask), returnPoints=False)[:, 0]]
-    along_m = hull_m @ np.stack([np.cos(turn_rad), np.sin(turn_rad)])
-    widths_m = np.ptp(along_m, axis=0)
-    disc_m = float(cv2.distanceTransform(mask, cv2.DIST_L2, cv2.DIST_MASK_PRECISE).max()) * pixel_m
-    return (
-        len(points_m) * pixel_m**2,
-        float(np.pi * (widths_m.mean() + pixel_m * 4.0 / np.pi / 2.0)),
-        axis_ratio(np.cov(points_m.T)),
-        disc_m - 0.5 * pixel_m,
-    )
+def refined(rock: Rock, halvings: int) -> Mesh:
+    """Return the rock's surface with the edges of its facets halved so often."""
+    form = rock.form
+    if isinstance(form, EllipsoidForm):
+        return ellipsoid_mesh(form.half_axes_m, subdivisions=SUBDIVISIONS + halvings)
+    if isinstance(form, SuperellipsoidForm):
+        return superellipsoid_mesh(
+            form.half_axes_m, form.exponents, subdivisions=FINER_SUBDIVISIONS + halvings
+        )
+    if not isinstance(form, RoundedHull):
+        raise TypeError(rock.family)
+    planes = ConvexHull(form.vertices_m).equations
+    sides = planes[np.unique(planes.round(8), axis=0, return_index=True)[1]]
+    body = from_half_spaces(sides[:, :3], -sides[:, 3])
+    return rounded_mesh(body, form.radius_m, split=2**halvings)
 
 
-def errors(rock: Rock, count: int) -> dict[str, float]:
-    """Return the relative errors of what was measured."""
-    truth, mesh = rock.truth, rock.mesh
-    form = mesh_form(mesh)
-    flat = form.outline(plane_across(RAY))
-    exact: Outline = flat if rock.form is None else rock.form.outline(plane_across(RAY))
-    area, perimeter, ratio, disc_m = rendered(rock, count)
-    found = {
-        "V mesh": volume_m3(mesh) / truth.volume_m3,
-        "inertia mesh": float(
-            (half_axes_of_covariance_m(covariance_m2(mesh)) / truth.half_axes_inertia_m).min()
-        ),
-        "A mesh": flat.area_m2 / exact.area_m2,
-        "L mesh": flat.perimeter_m / exact.perimeter_m,
-        "ratio mesh": flat.axis_ratio / exact.axis_ratio,
-        "A picture": area / exact.area_m2,
-        "ratio picture": ratio / exact.axis_ratio,
+def solid_errors(rock: Rock, mesh: Mesh) -> dict[str, float]:
+    """Return the relative errors of a mesh's volume, area and inertia's half-axes."""
+    truth = rock.truth
+    half_axes_m = half_axes_of_covariance_m(covariance_m2(mesh))
+    return {
+        "V": abs(volume_m3(mesh) / truth.volume_m3 - 1.0),
+        "S": abs(area_m2(mesh) / truth.area_m2 - 1.0),
+        "inertia": float(np.abs(half_axes_m / truth.half_axes_inertia_m - 1.0).max()),
     }
-    if truth.area_m2 is not None:
-        found["S mesh"] = area_m2(mesh) / truth.area_m2
-    if rock.form is not None:
-        found["L picture"] = perimeter / exact.perimeter_m
-    if truth.radius_m is not None and exact.roundness is not None:
-        found["roundness picture"] = truth.radius_m / disc_m / exact.roundness
-    halved = form.silhouette(plane_across(RAY), bearings=2048)
-    found["L, half the bearings"] = halved.perimeter_m / flat.perimeter_m
+
+
+def outline_errors(rock: Rock, mesh: Mesh, count: int) -> dict[str, float]:
+    """Return the relative errors of the outline, from the silhouette and from a picture."""
+    exact = rock.form.outline(ACROSS)
+    flat = mesh_form(mesh).outline(ACROSS)
+    area, perimeter, ratio, disc_m = pictured(mesh, count)
+    found = {
+        "A": flat.area_m2 / exact.area_m2,
+        "L": flat.perimeter_m / exact.perimeter_m,
+        "axis ratio": flat.axis_ratio / exact.axis_ratio,
+        "A picture": area / exact.area_m2,
+        "L picture": perimeter / exact.perimeter_m,
+        "axis ratio picture": ratio / exact.axis_ratio,
+    }
+    if rock.truth.radius_m is not None:
+        found["roundness picture"] = rock.truth.radius_m / disc_m / exact.roundness
     return {name: abs(value - 1.0) for name, value in found.items()}
 
 
-def main() -> None:
-    """Print the table in Markdown, and what perspective does to an outline."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--rocks", type=int, default=3, help="rocks of each family")
-    parser.add_argument("--pixels", type=int, default=2000, help="across the picture")
-    arguments = parser.parse_args()
-    folder = Path(__file__).parent.parent / "examples" / "rocks"
-    scans = tuple(str(path) for path in sorted(folder.glob("*.ply")))
-    columns = ["V mesh", "S mesh", "inertia mesh", "A mesh", "L mesh", "ratio mesh"]
-    columns += ["A picture", "L picture", "ratio picture", "roundness picture"]
-    columns += ["L, half the bearings"]
-    print("| family | " + " | ".join(columns) + " | largest |")
+def pictured(mesh: Mesh, count: int) -> tuple[float, float, float, float]:
+    """Return area, perimeter, axis ratio and inscribed radius of a convex body's picture.
+
+    Parallel rays through the centres of count × count pixels; those at the edge are split. The
+    perimeter is π times the mean width over all directions (Cauchy).
+    """
+    scene = EmbreeScene(robust=True)
+    TriangleMesh(scene, mesh.vertices_m[mesh.faces].astype(np.float32))
+    half_m = 1.05 * float(np.linalg.norm(mesh.vertices_m, axis=1).max())
+    pixel_m = 2.0 * half_m / count
+    grid = (np.arange(count) + 0.5) * pixel_m - half_m
+    mask = np.stack([_hit(scene, np.column_stack([grid, np.full(count, y)])) for y in grid])
+    core = np.ones((3, 3), np.uint8)
+    inner = cv2.erode(mask.astype(np.uint8), core) > 0
+    edge = (cv2.dilate(mask.astype(np.uint8), core) > 0) & ~inner
+    places = np.argwhere(inner)
+    whole_m = np.column_stack([grid[places[:, 1]], grid[places[:, 0]]])
+    offsets = ((np.arange(EDGE_SPLIT) + 0.5) / EDGE_SPLIT - 0.5) * pixel_m
+    shifts = np.stack(np.meshgrid(offsets, offsets), axis=-1).reshape(-1, 2)
+    rows, columns = np.nonzero(edge)
+    tried_m = np.column_stack([grid[columns], grid[rows]])[:, None] + shifts
+    parts_m = np.concatenate([part[_hit(scene, part)] for part in tried_m.transpose(1, 0, 2)])
+    points_m = np.concatenate([whole_m, parts_m])
+    weights = np.repeat([1.0, 1.0 / EDGE_SPLIT**2], [len(whole_m), len(parts_m)])
+    hull = ConvexHull(parts_m)
+    turn_rad = np.pi * np.arange(3600) / 3600
+    along_m = parts_m[hull.vertices] @ np.stack([np.cos(turn_rad), np.sin(turn_rad)])
+    inside = linprog(
+        [0.0, 0.0, -1.0],
+        A_ub=np.column_stack([hull.equations[:, :2], np.ones(len(hull.equations))]),
+        b_ub=-hull.equations[:, 2],
+        bounds=[(None, None)] * 2 + [(0, None)],
+    )
+    return (
+        float(weights.sum()) * pixel_m**2,
+        float(np.pi * np.ptp(along_m, axis=0).mean()),
+        axis_ratio(np.cov(points_m.T, aweights=weights)),
+        float(inside.x[2]),
+    )
+
+
+def _hit(scene: EmbreeScene, points_m: np.ndarray) -> np.ndarray:
+    """Tell through which points of the plane, (n, 2), the ray meets the body."""
+    ray = np.cross(ACROSS[0], ACROSS[1])
+    origins = (points_m @ ACROSS - 2.0 * ray).astype(np.float32)
+    rays = np.broadcast_to(ray, origins.shape).astype(np.float32)
+    return np.asarray(scene.run(origins, rays) >= 0)
+
+
+def table(rows: dict[str, list[dict[str, float]]]) -> None:
+    """Print the largest of each family's errors in Markdown, and of those on the finest mesh."""
+    columns = list(dict.fromkeys(name for found in rows.values() for name in found[0]))
+    print("| family | " + " | ".join(columns) + " | largest, finest mesh |")
     print("| --- |" + " --- |" * (len(columns) + 1))
-    for family in FAMILIES:
-        spec = RocksSpec(count=arguments.rocks, family=family, series="random", scans=scans)
-        rows = [
-            errors(rock, arguments.pixels) for rock in quarry(spec, rng=np.random.default_rng(7))
-        ]
-        worst = {name: max(row.get(name, 0.0) for row in rows) for name in rows[0]}
+    for family, found in rows.items():
+        worst = {name: max(one[name] for one in found) for name in found[0]}
         cells = [f"{worst[name]:.1e}" if name in worst else "–" for name in columns]
-        print(f"| {family} | " + " | ".join(cells) + f" | {max(worst.values()):.1e} |")
+        finest = [v for name, v in worst.items() if "mesh" not in name and "edges/2" not in name]
+        print(f"| {family} | " + " | ".join(cells) + f" | {max(finest):.1e} |")
+
+
+def perspective() -> None:
+    """Print what perspective makes of an outline."""
     rock = quarry(RocksSpec(count=1), rng=np.random.default_rng(7))[0]
-    flat, form = mesh_form(rock.mesh).outline(plane_across(RAY)), mesh_form(rock.mesh)
-    print("\nThe same outline in perspective, over the parallel one:\n")
+    form = mesh_form(rock.mesh)
+    flat = form.outline(ACROSS)
     print("| distance over a | area | perimeter | axis ratio |\n| --- | --- | --- | --- |")
     for times in (8, 12, 25, 50):
         distance_m = times * float(rock.truth.half_axes_box_m[0])
-        seen = form.silhouette(plane_across(RAY), camera_m=distance_m)
+        seen = form.silhouette(ACROSS, camera_m=distance_m)
         print(
             f"| {times} | {seen.area_m2 / flat.area_m2:.4f} "
             f"| {seen.perimeter_m / flat.perimeter_m:.4f} "
             f"| {seen.axis_ratio / flat.axis_ratio:.4f} |"
         )
+
+
+def main() -> None:
+    """Print the tables in Markdown."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--rocks", type=int, default=3, help="rocks of each family")
+    parser.add_argument("--pixels", type=int, default=2000, help="across the picture")
+    arguments = parser.parse_args()
+    solids: dict[str, list[dict[str, float]]] = {}
+    outlines: dict[str, list[dict[str, float]]] = {}
+    for family in FAMILIES:
+        spec = RocksSpec(count=arguments.rocks, family=family, series="random")
+        rocks = quarry(spec, rng=np.random.default_rng(7))
+        solids[family], outlines[family] = [], []
+        for rock in rocks:
+            found: dict[str, float] = {}
+            for halvings in range(HALVINGS + 1):
+                mesh = refined(rock, halvings)
+                name = f"edges/{2**halvings}" if halvings else "datasets' mesh"
+                errors = solid_errors(rock, mesh)
+                found |= {f"{key}, {name}": value for key, value in errors.items()}
+            solids[family].append(found)
+            outlines[family].append(outline_errors(rock, mesh, arguments.pixels))
+    print("Solids:\n")
+    table(solids)
+    print(f"\nOutlines, on the mesh with edges/{2**HALVINGS}:\n")
+    table(outlines)
+    print("\nThe same outline in perspective, over the parallel one:\n")
+    perspective()
 
 
 if __name__ == "__main__":

@@ -8,15 +8,17 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 from scipy.spatial.distance import cdist
 
+from synth.beyond import Beyond, Canvas, Window, united
 from synth.camera import Camera
 from synth.mesh import Mesh
-from synth.render.view import View
+from synth.render.view import Sight
 from synth.scene import Scene
 
 Floats = NDArray[np.float64]
 Table = dict[str, Any]
 
 _NOWHERE = [-1, -1, -1, -1]  # BOP's box of a rock that is not seen
+_MANY = 1500  # points: their hull takes less time than their pairs
 MAX_ROCKS = 1000  # object ids leave this much room for each scene
 
 
@@ -68,27 +70,40 @@ def scene_gt(scene: Scene, index: int) -> Table:
     }
 
 
-def scene_gt_info(views: Sequence[View], valid: Sequence[NDArray[np.bool_]]) -> Table:
-    """Return scene_gt_info.json: boxes and pixel counts; an unseen rock's visible box is −1.
+def scene_gt_info(
+    scene: Scene, views: Sequence[Sight], valid: Sequence[NDArray[np.bool_]]
+) -> Table:
+    """Return scene_gt_info.json: boxes and pixel counts; an unseen rock's boxes are −1.
 
+    A silhouette counts beyond the frame as well, as far as BOP's canvas of three frames by three.
     `valid` tells for each view where the depth image holds a depth.
     """
+    canvas = Canvas(scene)
     return {
         str(number): [
-            _info(silhouette, view.labels == instance + 1, known)
+            _info(
+                silhouette,
+                view.labels == instance + 1,
+                known,
+                canvas.beyond(instance, pose, view.boxes_px[instance]),
+            )
             for instance, silhouette in enumerate(view.silhouettes)
         ]
-        for number, (view, known) in enumerate(zip(views, valid, strict=True))
+        for number, (pose, view, known) in enumerate(zip(scene.poses, views, valid, strict=True))
     }
 
 
 def _info(
-    silhouette: NDArray[np.bool_], visible: NDArray[np.bool_], known: NDArray[np.bool_]
+    silhouette: NDArray[np.bool_],
+    visible: NDArray[np.bool_],
+    known: NDArray[np.bool_],
+    beyond: Beyond,
 ) -> Table:
-    count_all, count_visible = int(silhouette.sum()), int(visible.sum())
+    count_all = int(silhouette.sum()) + beyond.count_px
+    count_visible = int(visible.sum())
     return {
-        "bbox_obj": _bop_box(silhouette) if count_visible else _NOWHERE,
-        "bbox_visib": _bop_box(visible),
+        "bbox_obj": _bop_box(_window(silhouette), beyond.window) if count_visible else _NOWHERE,
+        "bbox_visib": _bop_box(_window(visible)),
         "px_count_all": count_all,
         "px_count_valid": int((silhouette & known).sum()),
         "px_count_visib": count_visible,
@@ -96,7 +111,7 @@ def _info(
     }
 
 
-def scene_gt_coco(scene: Scene, index: int, views: Sequence[View]) -> Table:
+def scene_gt_coco(scene: Scene, index: int, views: Sequence[Sight]) -> Table:
     """Return scene_gt_coco.json: what is visible, in run lengths down the columns.
 
     A rock that is not seen has no annotation.
@@ -113,7 +128,7 @@ def scene_gt_coco(scene: Scene, index: int, views: Sequence[View]) -> Table:
                         "category_id": object_id(index, instance),
                         "iscrowd": 0,
                         "area": int(visible.sum()),
-                        "bbox": _box(visible),
+                        "bbox": _coco_box(visible),
                         "segmentation": {"size": visible.shape, "counts": run_lengths(visible)},
                         "width": scene.camera.width,
                         "height": scene.camera.height,
@@ -153,12 +168,14 @@ def diameter_m(points_m: Floats) -> float:
 
     A point nearer to the middle than d − R, with d some distance in the set and R the greatest
     from the middle, can be no end of the diameter: it is dropped before all pairs are compared.
+    Of many that stay the convex hull's corners are taken, since both ends are among them.
     """
-    corners_m = points_m[ConvexHull(points_m).vertices]
-    arms_m = np.linalg.norm(corners_m - corners_m.mean(axis=0), axis=1)
-    farthest = corners_m[np.argmax(arms_m)]
-    known_m = float(np.linalg.norm(corners_m - farthest, axis=1).max())
-    ends_m = corners_m[arms_m >= known_m - arms_m.max() - 1e-12]
+    arms_m = np.linalg.norm(points_m - points_m.mean(axis=0), axis=1)
+    farthest = points_m[np.argmax(arms_m)]
+    known_m = float(np.linalg.norm(points_m - farthest, axis=1).max())
+    ends_m = points_m[arms_m >= known_m - arms_m.max() - 1e-12]
+    if len(ends_m) > _MANY:
+        ends_m = ends_m[ConvexHull(ends_m).vertices]
     return max(float(cdist(part, ends_m).max()) for part in np.array_split(ends_m, 16) if len(part))
 
 
@@ -176,15 +193,16 @@ def run_lengths(mask: NDArray[np.bool_]) -> list[int]:
     return [int(run) for run in (runs[:-1] if runs[-1] == 0 else runs)]
 
 
-def _bop_box(mask: NDArray[np.bool_]) -> list[int]:
+def _bop_box(*windows: Window | None) -> list[int]:
     """Return left, top, width, height as BOP's tools count: from the first pixel to the last."""
-    if not mask.any():
+    window = united([one for one in windows if one is not None])
+    if window is None:
         return _NOWHERE
-    left, top, width, height = _box(mask)
-    return [left, top, width - 1, height - 1]
+    left, top, right, bottom = window
+    return [left, top, right - left - 1, bottom - top - 1]
 
 
-def _box(mask: NDArray[np.bool_]) -> list[int]:
+def _coco_box(mask: NDArray[np.bool_]) -> list[int]:
     """Return left, top, width, height of a mask that is not empty, as COCO counts: in pixels."""
     rows, cols = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
     return [
@@ -193,3 +211,11 @@ def _box(mask: NDArray[np.bool_]) -> list[int]:
         int(cols[-1] - cols[0] + 1),
         int(rows[-1] - rows[0] + 1),
     ]
+
+
+def _window(mask: NDArray[np.bool_]) -> Window | None:
+    """Return the window that a mask fills, None where it is empty."""
+    if not mask.any():
+        return None
+    left, top, width, height = _coco_box(mask)
+    return left, top, left + width, top + height

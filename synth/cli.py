@@ -12,7 +12,8 @@ from synth.generate import generate_dataset
 from synth.replay import replay_dataset
 from synth.shapes import NAMES, write_series
 from synth.shapes.write import JITTER_RMS_PX
-from synth.spec import RendererName, SceneSpec, convert_spec, load_spec
+from synth.spec import MOST_SCENES, RendererName, SceneSpec, convert_spec, load_spec
+from synth.spec.limits import MOST
 from synth.spec.sensor import NoiseKind
 from synth.spec.view import PresetName
 
@@ -107,10 +108,10 @@ def _spec(args: argparse.Namespace) -> SceneSpec:
     _require("--camera", args.camera, get_args(PresetName))
     _require("--renderer", args.renderer, get_args(RendererName))
     _require("--noise", args.noise, get_args(NoiseKind))
-    for option in ("scenes", "rocks", "views"):
+    for option, most in (("scenes", MOST_SCENES), ("rocks", MOST), ("views", MOST)):
         value = getattr(args, option)
-        if value is not None and value < 1:
-            raise InputError(f"--{option}: expected 1 or more, found {value}")
+        if value is not None and not 1 <= value <= most:
+            raise InputError(f"--{option}: expected 1 to {most}, found {value}")
     if args.seed is not None and not 0 <= args.seed < _MAX_SEED:
         raise InputError(f"--seed: expected 0 or more, below 2^63, found {args.seed}")
     spec = SceneSpec() if args.spec is None else load_spec(args.spec)

@@ -2,6 +2,7 @@
 
 import os
 import shutil
+from concurrent.futures import Executor
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -16,11 +17,11 @@ from synth.glb import scene_glb
 from synth.light import light_scene
 from synth.paths import camera_distance_m, camera_of, stations
 from synth.render import open_renderer, render_view
-from synth.render.view import View
+from synth.render.view import Sight
 from synth.scene import Scene, build_scene
 from synth.sensor import Capture, capture_view
 from synth.shape_truth import scene_gt_shape
-from synth.sheet import write_contact_sheet
+from synth.sheet import MOST_SCENES, sheet_row, write_contact_sheet
 from synth.spec import RendererName, SceneSpec
 
 PARTIAL = ".partial"  # folder of scenes that are not whole yet, gone when the dataset is
@@ -66,7 +67,8 @@ def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -
     shutil.rmtree(folder, ignore_errors=True)
     for name in (*_picture_folders(spec), "labels", "mask", "mask_visib", "models"):
         (folder / name).mkdir(parents=True)
-    views, valid = [], []
+    views: list[Sight] = []
+    valid = []
     for number, pose in enumerate(scene.poses):
         view = render_view(renderer, stage, scene.camera, pose, supersample=spec.camera.supersample)
         capture = capture_view(
@@ -85,7 +87,7 @@ def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -
             exact = encode_depth(view.depth_m, scale_mm)
             write_png(folder / "depth_true" / f"{number:06d}.png", exact)
         _write_masks(folder, number, view)
-        views.append(view)
+        views.append(view.sight())
         valid.append(depth > 0)
     _write_tables(folder, scene, index, views, valid=valid, scale_mm=scale_mm)
     (folder / "scene.glb").write_bytes(scene_glb(stage))
@@ -102,8 +104,15 @@ def encode_depth(depth_m: NDArray[np.float64], scale_mm: float) -> NDArray[np.ui
     return np.where(steps <= 65535, steps, 0).astype(np.uint16)
 
 
-def write_common(spec: SceneSpec, backend: RendererName, out: Path) -> None:
-    """Write camera.json, models_info.json, the contact sheet and, last, the manifest."""
+def write_common(
+    spec: SceneSpec, backend: RendererName, out: Path, pool: Executor | None = None
+) -> None:
+    """Write camera.json, models_info.json, the contact sheet and, last, the manifest.
+
+    With a pool its processes draw the sheet, row by row.
+    """
+    scenes = [out / scene_name(index) for index in range(min(spec.scenes, MOST_SCENES))]
+    rows = (map if pool is None else pool.map)(sheet_row, scenes)
     camera = camera_of(spec.camera)
     write_json(out / "camera.json", bop.camera_table(camera, depth_scale_mm(spec)))
     models: dict[str, Any] = {}
@@ -111,8 +120,7 @@ def write_common(spec: SceneSpec, backend: RendererName, out: Path) -> None:
         for rock in read_json(out / scene_name(index) / "scene_gt_shape.json")["rocks"]:
             models[str(rock["obj_id"])] = rock["model_mm"]
     write_json(out / "models" / "models_info.json", models)
-    scenes = [out / scene_name(index) for index in range(spec.scenes)]
-    write_contact_sheet(out / "contact_sheet.png", scenes)
+    write_contact_sheet(out / "contact_sheet.png", list(rows))
     manifest = {**identity(spec, backend), "files": file_digests(out)}
     draft = out / "manifest.draft"
     write_json(draft, manifest)
@@ -156,7 +164,7 @@ def _write_pictures(folder: Path, number: int, capture: Capture, depth: NDArray[
         write_png(folder / "gray_right" / name, capture.right_picture)
 
 
-def _write_masks(folder: Path, number: int, view: View) -> None:
+def _write_masks(folder: Path, number: int, view: Sight) -> None:
     stem = f"{number:06d}"
     write_png(folder / "labels" / f"{stem}.png", view.labels)
     for instance, silhouette in enumerate(view.silhouettes):
@@ -170,14 +178,14 @@ def _write_tables(
     folder: Path,
     scene: Scene,
     index: int,
-    views: list[View],
+    views: list[Sight],
     *,
     valid: list[NDArray[np.bool_]],
     scale_mm: float,
 ) -> None:
     write_json(folder / "scene_camera.json", bop.scene_camera(scene, scale_mm))
     write_json(folder / "scene_gt.json", bop.scene_gt(scene, index))
-    write_json(folder / "scene_gt_info.json", bop.scene_gt_info(views, valid))
+    write_json(folder / "scene_gt_info.json", bop.scene_gt_info(scene, views, valid))
     write_json(folder / "scene_gt_coco.json", bop.scene_gt_coco(scene, index, views))
     write_json(folder / "scene_gt_shape.json", scene_gt_shape(scene, index, views))
 

@@ -1,25 +1,25 @@
 """Paths: where the camera stops, and what it looks at from there."""
 
+from dataclasses import replace
+
 import numpy as np
 
-from synth.camera import PRESETS, Camera, Floats, Pose, look_at
+from synth.camera import PRESETS, Camera, Floats, Pose, check_lens, look_at
 from synth.spec.view import CameraSpec, ViewsSpec
 
 
 def camera_of(spec: CameraSpec) -> Camera:
-    """Return the preset's camera with the spec's lens."""
+    """Return the preset's camera with the spec's lens.
+
+    Raises:
+        InputError: the lens folds the image inside the frame.
+    """
     camera = PRESETS[spec.preset].camera
     if not any(spec.distortion):
         return camera
-    return Camera(
-        camera.fx,
-        camera.fy,
-        camera.cx,
-        camera.cy,
-        camera.width,
-        camera.height,
-        distortion=spec.distortion,
-    )
+    bent = replace(camera, distortion=spec.distortion)
+    check_lens(bent)
+    return bent
 
 
 def camera_distance_m(spec: CameraSpec) -> float:

@@ -1,11 +1,12 @@
 """Where rocks lie: apart from one another, and either in every view or all over a disc."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.camera import Camera, Pose
+from synth.camera import Camera, Pose, border_rays
 from synth.errors import InputError
 from synth.mesh import Mesh
 from synth.spec.population import PopulationSpec
@@ -13,20 +14,24 @@ from synth.spec.population import PopulationSpec
 Floats = NDArray[np.float64]
 
 _DARTS = 2000  # places tried at once for a rock
-_RESTARTS = 40  # fresh starts before the ground counts as full
+_STARTS = 40  # fresh starts before the ground counts as full
+_TRIAL_STARTS = 3
+_CLEARLY = 0.7  # of a crowd: when a sample says that fewer fit, it is not worth trying
 _THROWS, _FEW = 60, 50  # of a population: rounds of fewer darts, without a fresh start
 _FRAME_MARGIN = 1.05  # a rock's sphere, with this much to spare, lies inside every view
 
 
-def scatter(
-    meshes: Sequence[Mesh],
-    *,
-    reach_m: float,
-    spacing: float,
-    frustums: Sequence[Floats],
-    gradient: Floats,
-    rng: np.random.Generator,
-) -> Floats:
+@dataclass(frozen=True, eq=False)
+class Yard:
+    """Ground on which rocks may lie, all inside every view."""
+
+    reach_m: float  # from the scene's centre
+    spacing: float  # least distance of two places over the sum of the rocks' radii
+    frustums: Sequence[Floats]  # (4, 4) each, see `frustum`
+    gradient: Floats  # (2,), of the ground's plane
+
+
+def scatter(meshes: Sequence[Mesh], yard: Yard, *, rng: np.random.Generator) -> Floats:
     """Return places (n, 2) on the ground for rocks that stand on the vertical through the origin.
 
     The distance between two places is at least spacing × the sum of the rocks' radii about the
@@ -36,28 +41,53 @@ def scatter(
     Raises:
         InputError: the ground is full.
     """
-    radii_m = reaches_m(meshes)
-    middles_m = np.array([mesh.vertices_m[:, 2].max() / 2.0 for mesh in meshes])
+    places_m = _thrown(_sizes_m(meshes), yard, rng, starts=_STARTS)
+    if len(places_m) < len(meshes):
+        raise _full(len(places_m), yard, len(meshes))
+    return places_m
+
+
+def refuse_crowd(
+    count: int, sample: Sequence[Mesh], yard: Yard, *, rng: np.random.Generator
+) -> None:
+    """Raise if by far not so many rocks fit, before all are made: a few stand for the rest.
+
+    Raises:
+        InputError: rocks of the sample's sizes fill the ground with less than 0.7 of the count.
+    """
+    places_m = _thrown(np.resize(_sizes_m(sample), (count, 2)), yard, rng, starts=_TRIAL_STARTS)
+    if len(places_m) < _CLEARLY * count:
+        raise _full(len(places_m), yard, count)
+
+
+def _thrown(sizes_m: Floats, yard: Yard, rng: np.random.Generator, *, starts: int) -> Floats:
+    """Return places for rocks of the sizes (n, 2) of `_sizes_m`; where not all fit, the most."""
+    radii_m, middles_m = sizes_m.T
     spheres_m = _FRAME_MARGIN * np.hypot(radii_m, middles_m)
-    most = 0
-    for _ in range(_RESTARTS):
+    most_m = np.empty((0, 2))
+    for _ in range(starts):
         places_m = np.empty((0, 2))
         for radius_m, middle_m, sphere_m in zip(radii_m, middles_m, spheres_m, strict=True):
-            darts_m = _over_disc_m(_DARTS, reach_m, rng)
-            middles = middle_m + darts_m @ gradient
-            free = _inside(darts_m, middles, sphere_m, frustums)
+            darts_m = _over_disc_m(_DARTS, yard.reach_m, rng)
+            middles = middle_m + darts_m @ yard.gradient
+            free = _inside(darts_m, middles, sphere_m, yard.frustums)
             gaps_m = np.linalg.norm(darts_m[:, None] - places_m, axis=2)
-            least_m = spacing * (radius_m + radii_m[: len(places_m)])
+            least_m = yard.spacing * (radius_m + radii_m[: len(places_m)])
             free &= (gaps_m >= least_m).all(axis=1)
             if not free.any():
                 break
             places_m = np.vstack([places_m, darts_m[np.argmax(free)]])
-        if len(places_m) == len(meshes):
-            return places_m
-        most = max(most, len(places_m))
-    raise InputError(
+        if len(places_m) > len(most_m):
+            most_m = places_m
+        if len(most_m) == len(sizes_m):
+            break
+    return most_m
+
+
+def _full(most: int, yard: Yard, count: int) -> InputError:
+    return InputError(
         f"rocks.count: the ground in view is full: expected at most {most} rocks at "
-        f"spacing {spacing:g}, found {len(meshes)}"
+        f"spacing {yard.spacing:g}, found {count}"
     )
 
 
@@ -102,21 +132,29 @@ def strew(
     return places_m
 
 
+def _sizes_m(meshes: Sequence[Mesh]) -> Floats:
+    """Return the rocks' radii about the vertical and half their heights, (n, 2)."""
+    middles_m = [mesh.vertices_m[:, 2].max() / 2.0 for mesh in meshes]
+    return np.column_stack([reaches_m(meshes), middles_m])
+
+
 def reaches_m(meshes: Sequence[Mesh]) -> Floats:
     """Return the rocks' radii about the vertical through the origin, (n,)."""
     return np.array([np.linalg.norm(mesh.vertices_m[:, :2], axis=1).max() for mesh in meshes])
 
 
 def frustum(camera: Camera, pose: Pose) -> Floats:
-    """Return the four sides of a view as planes (4, 4): n·x + d is the depth inside, in metres."""
-    left, right = camera.cx + 0.5, camera.width - 0.5 - camera.cx
-    top, bottom = camera.cy + 0.5, camera.height - 0.5 - camera.cy
+    """Return the four sides of a view as planes (4, 4): n·x + d is the depth inside, in metres.
+
+    Where a lens bends the frame's sides, each plane stands where its side comes farthest in.
+    """
+    left, top, right, bottom = border_rays(camera)
     normals = np.array(
         [
-            [camera.fx, 0.0, left],
-            [-camera.fx, 0.0, right],
-            [0.0, camera.fy, top],
-            [0.0, -camera.fy, bottom],
+            [1.0, 0.0, -left[:, 0].max()],
+            [-1.0, 0.0, right[:, 0].min()],
+            [0.0, 1.0, -top[:, 1].max()],
+            [0.0, -1.0, bottom[:, 1].min()],
         ]
     )
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)

@@ -10,7 +10,7 @@ from synth.camera import Camera, Pose
 from synth.ground import Ground, make_ground
 from synth.mesh import Floats, Mesh
 from synth.paths import camera_distance_m, camera_of, stations
-from synth.places import frustum, scatter, strew
+from synth.places import Yard, frustum, refuse_crowd, scatter, strew
 from synth.population import draw_diameters_m
 from synth.resting import buried_fraction, settle, shortest_turn
 from synth.rocks import Rock, quarry
@@ -18,6 +18,7 @@ from synth.spec import SceneSpec
 
 _LYING, _GROUND, _POPULATION = 1, 2, 3  # children of the scene's seed
 _ROOM_M = 0.4  # kept free of a population's rocks round the foot of each station
+_CROWD, _SAMPLE = 24, 12  # more rocks than the first are tried with the second before all are made
 _FOOT = 0.15  # vertices in this lowest share of a rock's height are its foot
 
 
@@ -31,6 +32,16 @@ class PlacedRock:
     albedo: float
     mesh: Mesh  # in the world
     buried_fraction: float = 0.0  # share of its volume below the ground
+
+
+@dataclass(frozen=True, eq=False)
+class _Standing:
+    """A rock that has settled, on the vertical through the origin."""
+
+    rock: Rock
+    turn: Floats  # (3, 3), model to world
+    height_m: float  # of the centroid
+    mesh: Mesh
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,35 +68,27 @@ def build_scene(spec: SceneSpec, index: int) -> Scene:
     reach_m = camera_distance_m(spec.camera) if counted else spec.population.radius_m
     ground = make_ground(spec.ground, radius_m=reach_m, rng=_child(spec, index, _GROUND))
     lying = _child(spec, index, _LYING)
+    yard = Yard(
+        reach_m=reach_m,
+        spacing=spec.rocks.spacing,
+        frustums=[frustum(camera, pose) for pose in poses],
+        gradient=ground.gradient,
+    )
+    if counted and spec.rocks.count > _CROWD:
+        _refuse_crowd(spec, yard, ground, rng=np.random.default_rng([spec.seed, index]))
     rocks = quarry(spec.rocks, rng=rng) if counted else _population(spec, index)
     falling = None if spec.ground.resting == "flattest" else lying
-    settled = [settle(rock, yaw_rad=rng.uniform(0.0, 2.0 * np.pi), rng=falling) for rock in rocks]
-    turns = [
-        rotation if not ground.gradient.any() else _onto(ground) @ rotation
-        for _, rotation, _ in settled
-    ]
-    meshes = [
-        rock.mesh.moved(turn, np.array([0.0, 0.0, height_m]))
-        for (rock, _, height_m), turn in zip(settled, turns, strict=True)
-    ]
+    standing = [_stood(rock, ground, rng=rng, falling=falling) for rock in rocks]
+    meshes = [one.mesh for one in standing]
     if counted:
-        places_m = scatter(
-            meshes,
-            reach_m=reach_m,
-            spacing=spec.rocks.spacing,
-            frustums=[frustum(camera, pose) for pose in poses],
-            gradient=ground.gradient,
-            rng=rng,
-        )
+        places_m = scatter(meshes, yard, rng=rng)
     else:
         places_m = strew(meshes, spec.population, keep_out_m=_feet_m(poses), rng=lying)
     albedos = rng.uniform(*spec.rocks.albedo, size=len(meshes))
     burials = lying.uniform(*spec.ground.burial, size=len(meshes))
     placed = tuple(
-        _lay(rock, turn, height_m, place, ground, burial=burial, albedo=float(albedo))
-        for (rock, _, height_m), turn, place, burial, albedo in zip(
-            settled, turns, places_m, burials, albedos, strict=True
-        )
+        _lay(one, place, ground, burial=burial, albedo=float(albedo))
+        for one, place, burial, albedo in zip(standing, places_m, burials, albedos, strict=True)
     )
     return Scene(rocks=placed, camera=camera, poses=tuple(poses), ground=ground)
 
@@ -122,10 +125,33 @@ def _onto(ground: Ground) -> Floats:
     return shortest_turn(np.array([0.0, 0.0, 1.0]), ground.normal())
 
 
-def _lay(
+def _stood(
     rock: Rock,
-    turn: Floats,
-    height_m: float,
+    ground: Ground,
+    *,
+    rng: np.random.Generator,
+    falling: np.random.Generator | None,
+) -> _Standing:
+    """Return a rock settled and turned onto the slope, on the vertical through the origin."""
+    _, turn, height_m = settle(rock, yaw_rad=rng.uniform(0.0, 2.0 * np.pi), rng=falling)
+    if ground.gradient.any():
+        turn = _onto(ground) @ turn
+    mesh = rock.mesh.moved(turn, np.array([0.0, 0.0, height_m]))
+    return _Standing(rock=rock, turn=turn, height_m=height_m, mesh=mesh)
+
+
+def _refuse_crowd(spec: SceneSpec, yard: Yard, ground: Ground, *, rng: np.random.Generator) -> None:
+    """Raise InputError if by far not all rocks fit: a few are made and laid over and over.
+
+    With the scene's own seed they are of the scene's own forms.
+    """
+    sample = quarry(msgspec.structs.replace(spec.rocks, count=_SAMPLE), rng=rng)
+    meshes = [_stood(rock, ground, rng=rng, falling=None).mesh for rock in sample]
+    refuse_crowd(spec.rocks.count, meshes, yard, rng=rng)
+
+
+def _lay(
+    standing: _Standing,
     place_m: Floats,
     ground: Ground,
     *,
@@ -136,7 +162,7 @@ def _lay(
 
     `burial` is the share of its height above the lowest point that sinks below the ground.
     """
-    above_m = height_m
+    rock, turn, above_m = standing.rock, standing.turn, standing.height_m
     if ground.gradient.any() or ground.ripple_height_m or burial:
         start = np.array([place_m[0], place_m[1], 0.0])
         body = rock.mesh.moved(turn, start).vertices_m

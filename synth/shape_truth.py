@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from synth.bop import model_info, object_id
 from synth.camera import Camera, Pose
 from synth.outlines import Form, mesh_form, plane_across
-from synth.render.view import View
+from synth.render.view import Sight
 from synth.scene import PlacedRock, Scene
 
 Floats = NDArray[np.float64]
@@ -18,7 +18,7 @@ Table = dict[str, Any]
 RESOLVABLE_PX = 3.0  # least radius of the corners in the image from which roundness can be told
 
 
-def scene_gt_shape(scene: Scene, index: int, views: Sequence[View]) -> Table:
+def scene_gt_shape(scene: Scene, index: int, views: Sequence[Sight]) -> Table:
     """Return scene_gt_shape.json: each rock's truth, and how each view sees it."""
     forms = [placed.rock.form or mesh_form(placed.rock.mesh) for placed in scene.rocks]
     return {
@@ -66,7 +66,7 @@ def _rock(placed: PlacedRock, index: int, instance: int) -> Table:
     }
 
 
-def _visibility(camera: Camera, view: View, instance: int) -> Table:
+def _visibility(camera: Camera, view: Sight, instance: int) -> Table:
     count_all = int(view.silhouettes[instance].sum())
     count_visible = int((view.labels == instance + 1).sum())
     left, top, right, bottom = view.boxes_px[instance]
@@ -99,5 +99,6 @@ def _outline(pose: Pose, placed: PlacedRock, form: Form) -> Table:
         "outline_perimeter_m": outline.perimeter_m,
         "outline_axis_ratio": outline.axis_ratio,
         "outline_roundness": outline.roundness,
+        "outline_roundness_scale": outline.roundness_scale,
         "outline_exact": placed.rock.form is not None,
     }

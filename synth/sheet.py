@@ -1,5 +1,6 @@
 """A contact sheet: what a dataset looks like, in one picture."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,19 +15,15 @@ Image = NDArray[Any]  # (rows, cols), of one of the kinds that pictures have
 
 _CELL_PX = 240  # the longer side of a small picture
 _GAP_PX = 6
-_MOST_SCENES, _MOST_VIEWS = 8, 4
+MOST_SCENES = 8
+_MOST_VIEWS = 4
 _PAPER = 250
 _TINT = 0.45  # share of a rock's colour in its pixels
 _GOLDEN = 0.618033988749895  # steps of hue that keep neighbours apart
 
 
-def write_contact_sheet(path: Path, scenes: list[Path]) -> None:
-    """Write a PNG with a row for each of the first scenes: image and depth of the first views.
-
-    Rocks are tinted, each with a colour of its own; depth runs from yellow, near, to violet, far,
-    over each picture's own range, white where nothing was measured.
-    """
-    rows = [_row(folder) for folder in scenes[:_MOST_SCENES]]
+def write_contact_sheet(path: Path, rows: Sequence[Bytes]) -> None:
+    """Write a PNG of rows (rows, cols, 3), one below the other."""
     width = max(row.shape[1] for row in rows)
     padded = [
         cv2.copyMakeBorder(
@@ -37,8 +34,12 @@ def write_contact_sheet(path: Path, scenes: list[Path]) -> None:
     write_png(path, np.concatenate(padded).astype(np.uint8))
 
 
-def _row(folder: Path) -> Bytes:
-    """Return one scene's pictures, (rows, cols, 3)."""
+def sheet_row(folder: Path) -> Bytes:
+    """Return one scene's row, (rows, cols, 3): image and depth of the first views.
+
+    Rocks are tinted, each with a colour of its own; depth runs from yellow, near, to violet, far,
+    over each picture's own range, white where nothing was measured.
+    """
     cells = []
     for path in sorted((folder / "gray").iterdir())[:_MOST_VIEWS]:
         image, depth, labels = (_read(folder / name / path.name) for name in _KINDS)

@@ -16,7 +16,8 @@ class Outline:
     area_m2: float
     perimeter_m: float
     axis_ratio: float  # minor over major axis of the ellipse with the same second moments
-    roundness: float | None  # Wadell's: mean radius of the corners over the inscribed disc's
+    roundness: float  # Wadell's: mean radius of the corners over the inscribed disc's
+    roundness_scale: float = 0.0  # of the smoothing before, over √(area/π); 0: as it is
 
 
 class Form(Protocol):
@@ -34,7 +35,7 @@ def plane_across(ray: Floats) -> Floats:
     return np.stack([first, np.cross(ray, first)])
 
 
-def polygon_outline(points_m: Floats, *, roundness: float | None) -> Outline:
+def polygon_outline(points_m: Floats, *, roundness: float, roundness_scale: float = 0.0) -> Outline:
     """Return the numbers of a polygon (n, 2), anticlockwise (Gauss's formulas)."""
     following = np.roll(points_m, -1, axis=0)
     crosses = points_m[:, 0] * following[:, 1] - points_m[:, 1] * following[:, 0]
@@ -49,6 +50,7 @@ def polygon_outline(points_m: Floats, *, roundness: float | None) -> Outline:
         perimeter_m=float(np.linalg.norm(following - points_m, axis=1).sum()),
         axis_ratio=axis_ratio(squares / (24.0 * area_m2) - np.outer(centre_m, centre_m)),
         roundness=roundness,
+        roundness_scale=roundness_scale,
     )
 
 

@@ -7,11 +7,12 @@ from numpy.typing import NDArray
 
 from synth.mesh import Mesh
 from synth.outlines.record import Outline, polygon_outline
+from synth.outlines.smoothed import SCALE, smoothed_roundness
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-_BEARINGS = 4096  # half as many move area and perimeter by less than 1e-3
+BEARINGS = 8192  # half as many move every number by less than 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,15 +29,15 @@ class MeshForm:
         return self.silhouette(across)
 
     def silhouette(
-        self, across: Floats, *, camera_m: float | None = None, bearings: int = _BEARINGS
+        self, across: Floats, *, camera_m: float | None = None, bearings: int = BEARINGS
     ) -> Outline:
         """Return the outline on the plane through the origin, its rows `across` (2, 3).
 
         Where a face turned to the viewer meets one turned away lies an edge that may be on the
         outline; the outline's radius on a bearing from the origin is the farthest such edge's. So
         a notch that cannot be seen from the middle is bridged. With `camera_m` the rays come from
-        a point at that distance from the origin: what perspective makes of the outline. A rough
-        outline has no roundness.
+        a point at that distance from the origin: what perspective makes of the outline. Its
+        roundness is that of the outline smoothed at a scale.
         """
         flat_m = self.vertices_m @ across.T
         if camera_m is not None:
@@ -49,7 +50,9 @@ class MeshForm:
         radii_m = _farthest_m(flat_m[self.edges[contour]], bearings)
         turn_rad = 2.0 * np.pi * np.arange(bearings) / bearings
         points_m = radii_m[:, None] * np.column_stack([np.cos(turn_rad), np.sin(turn_rad)])
-        return polygon_outline(points_m, roundness=None)
+        return polygon_outline(
+            points_m, roundness=smoothed_roundness(points_m), roundness_scale=SCALE
+        )
 
 
 def mesh_form(mesh: Mesh) -> MeshForm:

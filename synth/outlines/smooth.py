@@ -10,7 +10,7 @@ from synth.outlines.record import Outline, polygon_outline
 
 Floats = NDArray[np.float64]
 
-_DIRECTIONS = 8192  # tangents of a superellipsoid's outline; half as many move it by < 1e-3
+DIRECTIONS = 8192  # tangents of a superellipsoid's outline; half as many move it by < 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,19 +58,19 @@ class SuperellipsoidForm:
             self.half_axes_m * np.sign(scaled) * gradient / support[:, None] ** (steep - 1.0)
         )
 
-    def outline(self, across: Floats) -> Outline:
+    def outline(self, across: Floats, *, directions: int = DIRECTIONS) -> Outline:
         """Return the outline through the contact points of many tangents, all on it.
 
         Corners are the places of least radius of curvature dL/dθ that is less than the inscribed
         disc's radius; the outline is symmetric about its middle, so that disc's radius is the
         least of the support function (Wadell 1932).
         """
-        turn_rad = 2.0 * np.pi * (np.arange(_DIRECTIONS) + 0.5) / _DIRECTIONS
+        turn_rad = 2.0 * np.pi * (np.arange(directions) + 0.5) / directions
         bearings = np.column_stack([np.cos(turn_rad), np.sin(turn_rad)])
         points_m = self.contact_m(bearings @ across) @ across.T
         inscribed_m = float(np.einsum("ij,ij->i", points_m, bearings).min())
         chords_m = np.linalg.norm(np.roll(points_m, -1, axis=0) - points_m, axis=1)
-        radii_m = chords_m * _DIRECTIONS / (2.0 * np.pi)
+        radii_m = chords_m * directions / (2.0 * np.pi)
         dips = (radii_m < np.roll(radii_m, 1)) & (radii_m <= np.roll(radii_m, -1))
         dips &= radii_m < inscribed_m * (1.0 - 1e-6)
         roundness = float(radii_m[dips].mean() / inscribed_m) if dips.any() else 1.0

@@ -23,7 +23,7 @@ _PACKAGES = {
     "embree": "the Python package embreex",
 }
 _EGL_PROBE = "import pyrender; pyrender.OffscreenRenderer(1, 1).delete()"
-_EGL_PROBE_SECONDS = 60
+_EGL_PROBE_SECONDS = 180
 
 
 def choose_backend(name: RendererName) -> RendererName:

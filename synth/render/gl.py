@@ -3,15 +3,22 @@
 Import this module only in a process whose PYOPENGL_PLATFORM is set: a process has one platform.
 """
 
+import gc
 from collections.abc import Sequence
 
 import numpy as np
 import pyrender
 from numpy.typing import NDArray
+from OpenGL import contextdata
 from pyrender.constants import GLTF, RenderFlags
 
 from synth.camera import Camera, Pose
 from synth.light import Body, Stage
+
+# pyrender collects garbage whenever a context is deleted; the imported modules, which stay, need
+# not be searched each time.
+gc.collect()
+gc.freeze()
 
 _OPENGL_FROM_OPENCV = np.diag([1.0, -1.0, -1.0])  # y up and z backward
 
@@ -49,20 +56,10 @@ class GLRenderer:
         colours: dict[pyrender.Node, tuple[int, int, int]],
     ) -> tuple[NDArray[np.uint8], NDArray[np.float32]]:
         camera = self._camera
-        # pyrender's pixel centres are at +0.5.
-        eye = pyrender.IntrinsicsCamera(
-            camera.fx,
-            camera.fy,
-            camera.cx + 0.5,
-            camera.cy + 0.5,
-            znear=limits_m[0],
-            zfar=limits_m[1],
-        )
-        camera_to_world = np.eye(4)
-        camera_to_world[:3, :3] = pose.world_to_camera.T @ _OPENGL_FROM_OPENCV
-        camera_to_world[:3, 3] = pose.position_m()
+        eye, camera_to_world = gl_eye(camera, pose, limits_m)
         node = self._scene.add(eye, pose=camera_to_world)
         self._scene.main_camera_node = node
+        kept = [len(storage) for storage in contextdata.STORAGES]
         renderer = pyrender.OffscreenRenderer(camera.width, camera.height)
         try:
             colour, depth_m = renderer.render(
@@ -72,6 +69,33 @@ class GLRenderer:
         finally:
             renderer.delete()
             self._scene.remove_node(node)
+            _forget_since(kept)
+
+
+def gl_eye(
+    camera: Camera, pose: Pose, limits_m: tuple[float, float]
+) -> tuple[pyrender.IntrinsicsCamera, NDArray[np.float64]]:
+    """Return pyrender's camera between two depths, and its place in the world, (4, 4)."""
+    # pyrender's pixel centres are at +0.5.
+    eye = pyrender.IntrinsicsCamera(
+        camera.fx,
+        camera.fy,
+        camera.cx + 0.5,
+        camera.cy + 0.5,
+        znear=limits_m[0],
+        zfar=limits_m[1],
+    )
+    camera_to_world = np.eye(4)
+    camera_to_world[:3, :3] = pose.world_to_camera.T @ _OPENGL_FROM_OPENCV
+    camera_to_world[:3, 3] = pose.position_m()
+    return eye, camera_to_world
+
+
+def _forget_since(kept: Sequence[int]) -> None:
+    """Drop what PyOpenGL holds for contexts that are gone: it keeps their arrays for ever."""
+    for storage, count in zip(contextdata.STORAGES, kept, strict=True):
+        for context in list(storage)[count:]:
+            del storage[context]
 
 
 def _mesh(body: Body) -> pyrender.Mesh:

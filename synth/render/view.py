@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.camera import Camera, Pose, project, undistorted
+from synth.camera import Camera, Pose, border_rays, project
 from synth.light import Stage
 from synth.render.interface import Renderer
 from synth.render.silhouettes import Silhouettes
@@ -17,15 +17,25 @@ _SLACK = 0.05  # depth limits lie this far outside the scene's own, as a share
 
 
 @dataclass(frozen=True, eq=False)
-class View:
+class Sight:
+    """Which rocks the camera sees from one station: all of a view that the tables need."""
+
+    labels: NDArray[np.uint16]  # (rows, cols), 1 + the rock's index, 0 elsewhere
+    silhouettes: Silhouettes  # (rows, cols) each, as if the rock were alone
+    boxes_px: tuple[Floats, ...]  # left, top, right, bottom of each rock, beyond the frame too
+
+
+@dataclass(frozen=True, eq=False)
+class View(Sight):
     """What the camera sees from one station."""
 
     image: NDArray[np.uint8]  # (rows, cols)
     light: NDArray[np.float32]  # (rows, cols), before it is rounded and clipped, 1 for white
     depth_m: Floats  # (rows, cols), NaN where nothing is
-    labels: NDArray[np.uint16]  # (rows, cols), 1 + the rock's index, 0 elsewhere
-    silhouettes: Silhouettes  # (rows, cols) each, as if the rock were alone
-    boxes_px: tuple[Floats, ...]  # left, top, right, bottom of each rock, beyond the frame too
+
+    def sight(self) -> Sight:
+        """Return the view without its pictures, which take six times as much memory."""
+        return Sight(self.labels, self.silhouettes, self.boxes_px)
 
 
 def render_view(
@@ -61,22 +71,17 @@ def render_light(
 def depth_limits_m(stage: Stage, camera: Camera, pose: Pose) -> tuple[float, float]:
     """Return the least and the greatest depth in view, with a little to spare.
 
-    The ground's are its plane's at the frame's corners, and as much nearer as ripples and pebbles
-    rise above it; where a corner shows sky the ground's far edge counts. The nearer the limits,
-    the finer the steps of an OpenGL depth buffer.
+    The ground's are its plane's along the frame's border, and as much nearer as ripples and
+    pebbles rise above it; where the border shows sky the ground's far edge counts. The nearer the
+    limits, the finer the steps of an OpenGL depth buffer.
     """
     rocks_m = [pose.camera_points_m(rock.vertices_m)[:, 2] for rock in stage.rocks]
     surface_m = stage.ground[0].vertices_m
     edge_m = float(np.abs(surface_m).max())
-    sides = np.array(
-        [[u, v] for u in (-0.5, camera.width - 0.5) for v in (-0.5, camera.height - 0.5)]
-    )
-    across, down = undistorted(
-        camera, (sides[:, 0] - camera.cx) / camera.fx, (sides[:, 1] - camera.cy) / camera.fy
-    )
-    corners = np.column_stack([across, down, np.ones(4)]) @ pose.world_to_camera
+    rays = np.concatenate(border_rays(camera))
+    border = np.column_stack([rays, np.ones(len(rays))]) @ pose.world_to_camera
     up = stage.plane_normal
-    falls, height_m = -(corners @ up), float(pose.position_m() @ up)
+    falls, height_m = -(border @ up), float(pose.position_m() @ up)
     ground_m = np.where(falls * edge_m > height_m, height_m / np.maximum(falls, 1e-9), edge_m)
     nearest_m = (height_m - stage.rise_m) / height_m * ground_m.min()
     depths_m = np.concatenate([ground_m, [max(nearest_m, _NEAREST_M)], *rocks_m])

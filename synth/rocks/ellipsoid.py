@@ -7,7 +7,7 @@ from scipy.special import elliprg
 from synth.mesh import Mesh
 from synth.outlines import EllipsoidForm
 from synth.rocks.record import Rock
-from synth.rocks.sphere import unit_sphere
+from synth.rocks.sphere import SUBDIVISIONS, unit_sphere
 from synth.truth import Truth
 
 Floats = NDArray[np.float64]
@@ -43,9 +43,9 @@ def ellipsoid_area_m2(half_axes_m: Floats) -> float:
     return float(4.0 * np.pi * elliprg(a2 * b2, a2 * c2, b2 * c2))
 
 
-def ellipsoid_mesh(half_axes_m: Floats) -> Mesh:
+def ellipsoid_mesh(half_axes_m: Floats, *, subdivisions: int = SUBDIVISIONS) -> Mesh:
     """Return a mesh whose vertices lie on the ellipsoid, with its exact normals."""
-    directions, faces = unit_sphere()
+    directions, faces = unit_sphere(subdivisions)
     normals = directions / half_axes_m
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
     return Mesh(vertices_m=directions * half_axes_m, faces=faces, normals=normals)

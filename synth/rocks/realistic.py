@@ -1,9 +1,11 @@
 """Realistic rocks: broken from a bed, chipped, worn and rough. Their truth is their mesh's."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_array
 
 from synth.mesh import Mesh, centroid_m, vertex_normals
 from synth.rocks.record import Rock
@@ -42,8 +44,9 @@ def realistic(half_axes_m: Floats, realism: Realism, *, rng: np.random.Generator
     """Return a broken rock whose smallest box has about the given half-axes.
 
     On a direction w its unit form has the radius (Σ_i (n_i·w/h_i(w))^p)^(-1/p) over its cuts: a
-    soft minimum of planes, the softer the more worn. Each cut's distance h_i undulates by itself,
-    so faces are not flat and edges not straight. Fine relief of exact RMS is laid on the whole.
+    soft minimum of planes, the softer the more worn: an edge's radius, about 1/p, grows evenly
+    with the abrasion. Each cut's distance h_i undulates by itself, so faces are not flat and edges
+    not straight. Fine relief of exact RMS, a function of w, is laid on the whole.
     """
     directions, faces = unit_sphere(realism.subdivisions)
     normals, depths = _main_cuts(realism, rng)
@@ -55,13 +58,14 @@ def realistic(half_axes_m: Floats, realism: Realism, *, rng: np.random.Generator
         np.concatenate([normals, chips]),
         np.concatenate([depths, chip_depths]),
         realism,
-        steep=_SHARPEST * (_BLUNTEST / _SHARPEST) ** realism.abrasion,
+        steep=1.0 / (1.0 / _SHARPEST + realism.abrasion * (1.0 / _BLUNTEST - 1.0 / _SHARPEST)),
         rng=rng,
     )
     form = _fitted(directions * body[:, None], faces, half_axes_m)
     rms_m = realism.relief_rms * float(np.cbrt(np.prod(half_axes_m)))
     rough = displaced(
         form,
+        directions=directions,
         along=form.vertices_m / half_axes_m**2,
         rms_m=rms_m,
         degrees=realism.relief_degrees,
@@ -102,6 +106,13 @@ def _main_cuts(realism: Realism, rng: np.random.Generator) -> tuple[Floats, Floa
     return normals, np.concatenate([depths, bed[: 2 * round(realism.slab > 0.0)], np.full(6, 1.35)])
 
 
+@lru_cache(maxsize=2)
+def _surroundings(subdivisions: int) -> csr_array:
+    """Return which directions of an even mesh lie within a chip's reach of which, (n, n)."""
+    directions = unit_sphere(subdivisions)[0]
+    return csr_array(directions @ directions.T > np.cos(_CHIP_REACH_RAD), dtype=np.float64)
+
+
 def _chips(surface: Floats, count: int, rng: np.random.Generator) -> tuple[Floats, Floats]:
     """Return cuts that take a little off where the surface (n, 3) stands out, most of them small.
 
@@ -109,13 +120,13 @@ def _chips(surface: Floats, count: int, rng: np.random.Generator) -> tuple[Float
     """
     radii = np.linalg.norm(surface, axis=1)
     directions = surface / radii[:, None]
-    near = directions @ directions.T > np.cos(_CHIP_REACH_RAD)
+    near = _surroundings(_CHIP_SUBDIVISIONS)
     outstanding = radii * near.sum(axis=1) / (near @ radii)
     normals, depths = np.empty((count, 3)), np.empty(count)
     for index in range(count):
         tried = rng.integers(len(surface), size=_CHIP_DRAWS)
         top = tried[np.argmax(outstanding[tried])]
-        around = surface[near[top]]
+        around = surface[near.indices[near.indptr[top] : near.indptr[top + 1]]]
         normal = directions[top] + 0.8 * (surface[top] - around.mean(axis=0))
         normal += _CHIP_TILT * rng.standard_normal(3)
         normals[index] = normal / np.linalg.norm(normal)
@@ -151,12 +162,12 @@ def _radii(
 
 def _undulation(points: Floats, rng: np.random.Generator) -> Floats:
     """Return a random function of points (n, 3) in space, of RMS about 1 over many draws."""
-    value = np.zeros(len(points))
+    value, points = np.zeros(len(points)), points.astype(np.float32)
     heights = np.array([(_OCTAVES[0] / octave) ** _FALL for octave in _OCTAVES])
     heights /= np.linalg.norm(heights)
     for octave, height in zip(_OCTAVES, heights, strict=True):
-        waves = octave * rng.standard_normal((_WAVES, 3))
-        phase = rng.uniform(0.0, 2.0 * np.pi, size=_WAVES)
+        waves = (octave * rng.standard_normal((_WAVES, 3))).astype(np.float32)
+        phase = rng.uniform(0.0, 2.0 * np.pi, size=_WAVES).astype(np.float32)
         value += height * np.sqrt(2.0 / _WAVES) * np.cos(points @ waves.T + phase).sum(axis=1)
     return value
 

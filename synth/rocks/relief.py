@@ -16,9 +16,9 @@ from synth.mesh import (
     vertex_normals,
     volume_m3,
 )
-from synth.outlines import EllipsoidForm
+from synth.outlines import RoundedHull
 from synth.rocks.record import Rock
-from synth.rocks.resample import resampled
+from synth.rocks.resample import even_mesh
 from synth.rocks.sphere import SUBDIVISIONS, band_limited
 from synth.truth import Truth, half_axes_of_covariance_m
 
@@ -30,7 +30,12 @@ _FOR_EDGES, _FINEST = 6, 7  # splits for a form with edges; the most
 
 
 def with_relief(
-    rock: Rock, *, relief_rms: float, degrees: tuple[int, int], rng: np.random.Generator
+    rock: Rock,
+    *,
+    relief_rms: float,
+    degrees: tuple[int, int],
+    rng: np.random.Generator,
+    halvings: int = 0,
 ) -> Rock:
     """Return the rock with relief on it, turned into its own smallest box.
 
@@ -38,20 +43,19 @@ def with_relief(
     degrees of spherical harmonics; its mean over the smooth surface is zero and its RMS there is
     relief_rms × (abc)^(1/3), both exactly. It is laid along the normals of the ellipsoids with
     the rock's half-axes: an ellipsoid's own, and on a rock with sharp edges they do not cross
-    as the edges' do. The mesh is refined to ten edges in the shortest wave. The truth is the
-    rough body's own, which the mesh is; only its area and roundness, which grow and fall with
-    the relief's finest detail, are no truths of its shape.
+    as the edges' do. The mesh is refined to eight edges in the shortest wave, and its edges then
+    halved so often more. The truth is the rough body's own, which the mesh is; only its area and
+    roundness, which grow and fall with the relief's finest detail, are no truths of its shape.
 
     Raises:
         InputError: a relief so high that it folds over.
     """
     size_m = float(np.cbrt(np.prod(rock.truth.half_axes_box_m)))
-    smooth = resampled(
-        rock.mesh, rock.truth.half_axes_box_m, subdivisions=_subdivisions(rock, degrees[1])
-    )
+    smooth = even_mesh(rock, subdivisions=_subdivisions(rock, degrees[1]) + halvings)
     along = smooth.vertices_m / rock.truth.half_axes_box_m**2
     rough = displaced(
         smooth,
+        directions=smooth.vertices_m / np.linalg.norm(smooth.vertices_m, axis=1, keepdims=True),
         along=along,
         rms_m=relief_rms * size_m,
         degrees=degrees,
@@ -75,14 +79,17 @@ def with_relief(
 def displaced(
     smooth: Mesh,
     *,
+    directions: Floats,
     along: Floats,
     rms_m: float,
     degrees: tuple[int, int],
     rng: np.random.Generator,
 ) -> Mesh:
-    """Return the mesh moved along directions (n, 3) by relief of exactly this RMS and no mean."""
+    """Return the mesh moved by relief of exactly this RMS and no mean.
+
+    The relief is a function of one direction (n, 3) for each vertex, and moves it along another.
+    """
     weights_m2 = vertex_areas_m2(smooth)
-    directions = smooth.vertices_m / np.linalg.norm(smooth.vertices_m, axis=1, keepdims=True)
     relief = band_limited(directions, degrees=degrees, rng=rng)
     relief -= weights_m2 @ relief / weights_m2.sum()
     relief_m = relief * rms_m / np.sqrt(weights_m2 @ relief**2 / weights_m2.sum())
@@ -124,15 +131,23 @@ def _subdivisions(rock: Rock, last_degree: int) -> int:
     wave_rad = 2.0 * np.pi / last_degree
     for subdivisions in range(SUBDIVISIONS, _FINEST):
         if _EDGE_RAD / 2.0**subdivisions <= wave_rad / _EDGES_PER_WAVE and (
-            subdivisions >= _FOR_EDGES or isinstance(rock.form, EllipsoidForm)
+            subdivisions >= _FOR_EDGES or not isinstance(rock.form, RoundedHull)
         ):
             return subdivisions
     return _FINEST
 
 
 def _require_unfolded(smooth: Mesh, rough: Mesh, along: Floats) -> None:
-    """Raise InputError where the relief has turned facets against its own direction, (n, 3)."""
-    folded = int((_upright(smooth, along) & ~_upright(rough, along)).sum())
+    """Raise InputError where the relief has turned facets over.
+
+    Such a facet has turned against the relief's direction (n, 3), and by more than a right angle:
+    one that lay nearly along that direction may turn against it by a little without a fold.
+    """
+    before, after = _outward_m2(smooth), _outward_m2(rough)
+    sums = along[smooth.faces].sum(axis=1)
+    upright, still_upright = (np.einsum("ij,ij->i", way, sums) > 0.0 for way in (before, after))
+    turned = np.einsum("ij,ij->i", before, after) <= 0.0
+    folded = int((upright & ~still_upright & turned).sum())
     if folded:
         raise InputError(
             f"rocks.relief_rms: expected relief that folds no facet over, "
@@ -140,8 +155,7 @@ def _require_unfolded(smooth: Mesh, rough: Mesh, along: Floats) -> None:
         )
 
 
-def _upright(mesh: Mesh, along: Floats) -> NDArray[np.bool_]:
-    """Tell which facets, (m,), face the way of a direction given at their vertices, (n, 3)."""
+def _outward_m2(mesh: Mesh) -> Floats:
+    """Return the facets' normals times twice their areas, (m, 3)."""
     first, second, third = mesh.vertices_m[mesh.faces].transpose(1, 0, 2)
-    outward = np.cross(second - first, third - first)
-    return np.asarray(np.einsum("ij,ij->i", outward, along[mesh.faces].sum(axis=1)) > 0.0)
+    return np.cross(second - first, third - first)

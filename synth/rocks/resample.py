@@ -1,4 +1,4 @@
-"""An even mesh of a surface."""
+"""Even meshes of rocks, fine enough to lay relief on."""
 
 import numpy as np
 import trimesh
@@ -7,11 +7,50 @@ from trimesh.ray.ray_pyembree import RayMeshIntersector
 
 from synth.errors import InputError
 from synth.mesh import Mesh, vertex_normals
+from synth.outlines import EllipsoidForm, SuperellipsoidForm
+from synth.rocks.ellipsoid import ellipsoid_mesh
+from synth.rocks.record import Rock
 from synth.rocks.sphere import unit_sphere
+from synth.rocks.superellipsoid import superellipsoid_mesh
 
 Floats = NDArray[np.float64]
 
+_LEAST_LOOPS = 2
 _NUDGES = (0.0, 1e-5, -1e-5, 1e-4, -1e-4)  # turns of a ray that slipped through, rad
+
+
+def even_mesh(rock: Rock, *, subdivisions: int) -> Mesh:
+    """Return a rock's surface on a mesh of about 20 × 4^subdivisions facets.
+
+    Smooth forms are meshed anew, their vertices on the surface. A body that is known by its facets
+    alone is subdivided by Loop's rule, which rounds them off. On P ⊕ B_r the vertices lie on the
+    facets of its own mesh.
+
+    Raises:
+        InputError: a body that does not surround its centroid.
+    """
+    if isinstance(rock.form, EllipsoidForm):
+        return ellipsoid_mesh(rock.form.half_axes_m, subdivisions=subdivisions)
+    if isinstance(rock.form, SuperellipsoidForm):
+        form = rock.form
+        return superellipsoid_mesh(form.half_axes_m, form.exponents, subdivisions=subdivisions)
+    if rock.form is None:
+        return _rounded_off(rock.mesh, facets=20 * 4**subdivisions)
+    return resampled(rock.mesh, rock.truth.half_axes_box_m, subdivisions=subdivisions)
+
+
+def _rounded_off(mesh: Mesh, *, facets: int) -> Mesh:
+    """Return the mesh after as many of Loop's subdivisions as bring it nearest to so many facets.
+
+    Each splits every facet in four and moves its corners towards a surface without creases
+    (Loop 1987); at least two, to be rid of the facets.
+    """
+    times = max(_LEAST_LOOPS, round(np.log(facets / len(mesh.faces)) / np.log(4.0)))
+    vertices_m, faces = trimesh.remesh.subdivide_loop(  # type: ignore[no-untyped-call]
+        mesh.vertices_m, mesh.faces, iterations=times
+    )
+    faces = np.asarray(faces, dtype=np.int64)
+    return Mesh(vertices_m=vertices_m, faces=faces, normals=vertex_normals(vertices_m, faces))
 
 
 def resampled(mesh: Mesh, half_axes_m: Floats, *, subdivisions: int) -> Mesh:
@@ -24,8 +63,6 @@ def resampled(mesh: Mesh, half_axes_m: Floats, *, subdivisions: int) -> Mesh:
         InputError: a ray misses the surface.
     """
     directions, faces = unit_sphere(subdivisions)
-    if len(mesh.vertices_m) == len(directions):
-        return mesh  # it was made from this very sphere
     rays = directions * half_axes_m
     rays /= np.linalg.norm(rays, axis=1, keepdims=True)
     far_m = 2.0 * float(np.linalg.norm(mesh.vertices_m, axis=1).max())

@@ -4,8 +4,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synth.box import nearby_box, smallest_box
-from synth.mesh import centroid_m, covariance_m2
+from synth.mesh import centroid_m
 from synth.outlines import RoundedHull
+from synth.rocks.moments import rounded_moments
 from synth.rocks.polyhedron import (
     Polyhedron,
     cuboid,
@@ -86,7 +87,9 @@ def _rock(
     measured = functionals(body)
     truth = Truth(
         half_axes_box_m=box_m,
-        half_axes_inertia_m=half_axes_of_covariance_m(covariance_m2(mesh)),
+        half_axes_inertia_m=half_axes_of_covariance_m(
+            rounded_moments(body, radius_m).covariance_m2
+        ),
         volume_m3=rounded_volume_m3(measured, radius_m),
         area_m2=rounded_area_m2(measured, radius_m),
         roundness=radius_m / (inside_m + radius_m),

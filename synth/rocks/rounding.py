@@ -27,13 +27,14 @@ def rounded_area_m2(body: Functionals, radius_m: float) -> float:
     return body.area_m2 + 2.0 * body.mean_curvature_m * r + 4.0 * np.pi * r**2
 
 
-def rounded_mesh(polyhedron: Polyhedron, radius_m: float) -> Mesh:
+def rounded_mesh(polyhedron: Polyhedron, radius_m: float, *, split: int = 1) -> Mesh:
     """Return a closed mesh of P ⊕ B_r; each vertex lies on the surface and has its exact normal.
 
     A face moves outward by r, an edge becomes a strip of a cylinder, a vertex a spherical polygon
     whose corners are the normals of the faces that meet there. Neighbours share their vertices.
+    Steps between normals may be split into several, to measure on what the facets do not flatten.
     """
-    builder = _Builder(polyhedron, radius_m)
+    builder = _Builder(polyhedron, radius_m, split=split)
     for face, loop in enumerate(polyhedron.loops):
         builder.add_face(face, loop)
     for v, w, f, g in polyhedron.edges():
@@ -46,9 +47,9 @@ def rounded_mesh(polyhedron: Polyhedron, radius_m: float) -> Mesh:
 class _Builder:
     """Collects the vertices and faces of one rounded polyhedron."""
 
-    def __init__(self, polyhedron: Polyhedron, radius_m: float) -> None:
+    def __init__(self, polyhedron: Polyhedron, radius_m: float, *, split: int) -> None:
         step_rad = 2.0 * np.sqrt(2.0 * _SAG_M / radius_m)
-        self._step_rad = float(np.clip(step_rad, *_STEPS_RAD))
+        self._step_rad = float(np.clip(step_rad, *_STEPS_RAD)) / split
         self._body = polyhedron
         self._radius_m = radius_m
         self._count = 0

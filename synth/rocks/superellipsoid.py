@@ -11,8 +11,8 @@ from synth.truth import Truth
 
 Floats = NDArray[np.float64]
 
-_NODES = 160  # Gauss-Legendre nodes along each of an octant's two angles
-_SUBDIVISIONS = 6  # 81,920 faces: with exponents up to 10 the facets take 1e-3 of the volume
+NODES = 160  # Gauss-Legendre nodes along each of an octant's two angles
+SUBDIVISIONS = 6  # 81,920 faces: with exponents up to 10 the facets take 1e-3 of the volume
 
 
 def superellipsoid(half_axes_m: Floats, *, exponents: tuple[float, float]) -> Rock:
@@ -34,14 +34,14 @@ def superellipsoid(half_axes_m: Floats, *, exponents: tuple[float, float]) -> Ro
     return Rock(
         family="superellipsoid",
         knobs={"exponent_level": exponents[0], "exponent_steep": exponents[1]},
-        mesh=_mesh(half_axes_m, exponents),
+        mesh=superellipsoid_mesh(half_axes_m, exponents),
         truth=truth,
         form=SuperellipsoidForm(half_axes_m, exponents),
     )
 
 
 def integrals(
-    half_axes_m: Floats, exponents: tuple[float, float], *, nodes: int = _NODES
+    half_axes_m: Floats, exponents: tuple[float, float], *, nodes: int = NODES
 ) -> tuple[float, float, Floats]:
     """Return volume, area and the mean of x², y², z² over the volume, (3,).
 
@@ -78,9 +78,11 @@ def _gauge(directions: Floats, exponents: tuple[float, float]) -> tuple[Floats, 
     return gauge, np.sign(directions) * gradient / gauge[:, None] ** (steep - 1.0)
 
 
-def _mesh(half_axes_m: Floats, exponents: tuple[float, float]) -> Mesh:
+def superellipsoid_mesh(
+    half_axes_m: Floats, exponents: tuple[float, float], *, subdivisions: int = SUBDIVISIONS
+) -> Mesh:
     """Return a mesh whose vertices lie on the surface, with its exact normals."""
-    directions, faces = unit_sphere(_SUBDIVISIONS)
+    directions, faces = unit_sphere(subdivisions)
     gauge, gradient = _gauge(directions, exponents)
     normals = gradient / half_axes_m
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)

@@ -10,6 +10,7 @@ from synth.light import Stage
 from synth.render.interface import Renderer
 from synth.render.view import View, render_light
 from synth.sensor.picture import Picture, eight_bits, take_picture
+from synth.sensor.rectify import Bytes, Rectification, rectification_of
 from synth.sensor.rig import rig_of
 from synth.sensor.seeds import Use, stream
 from synth.sensor.sgm import matched_disparity_px, search_range_px
@@ -54,8 +55,12 @@ def capture_view(
     if noise.kind == "none":
         return Capture(picture=picture, depth_m=view.depth_m, right_picture=None)
     rig = rig_of(spec.camera.preset)
+    lens = None if camera.distortion is None else rectification_of(camera)
     if noise.kind == "stereo":
-        depth_m = modelled_depth_m(view.depth_m, view.light, rig, noise, rng=chance(Use.DISPARITY))
+        exposed = sensor.exposure * view.light
+        depth_m = modelled_depth_m(
+            view.depth_m, exposed, rig, noise, rng=chance(Use.DISPARITY), lens=lens
+        )
         return Capture(picture=picture, depth_m=depth_m, right_picture=None)
     light = render_light(
         renderer,
@@ -65,12 +70,34 @@ def capture_view(
         supersample=spec.camera.supersample,
     )
     right = take_picture(light, sensor, rng=chance(Use.RIGHT_PICTURE))
-    least_px, count = search_range_px(rig.disparity_px(view.depth_m))
-    disparity_px = matched_disparity_px(
+    disparity_px = _matched_px(
         eight_bits(picture),
         eight_bits(right),
-        least_px=least_px,
-        count=count,
+        exact_px=rig.disparity_px(view.depth_m),
         window_px=noise.window_px,
+        lens=lens,
     )
     return Capture(picture=picture, depth_m=rig.depth_m(disparity_px), right_picture=right)
+
+
+def _matched_px(
+    left: Bytes, right: Bytes, *, exact_px: Floats, window_px: int, lens: Rectification | None
+) -> Floats:
+    """Return the disparity of two pictures, (rows, cols), matched where the lens's are straight.
+
+    The scene's own disparities set the range that is searched.
+    """
+    least_px, count = search_range_px(exact_px)
+    if lens is None:
+        return matched_disparity_px(
+            left, right, least_px=least_px, count=count, window_px=window_px
+        )
+    found_px = matched_disparity_px(
+        lens.straight_picture(left),
+        lens.straight_picture(right),
+        least_px=least_px,
+        count=count,
+        window_px=window_px,
+    )
+    found_px[~lens.seen | lens.outside_right(found_px)] = np.nan
+    return lens.bent_disparity_px(found_px)

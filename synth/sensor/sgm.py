@@ -26,6 +26,17 @@ def search_range_px(disparity_px: Floats) -> tuple[int, int]:
     return low, _GRANULE * int(np.ceil((high - low) / _GRANULE))
 
 
+def _to_nearest(steps: NDArray[np.int16]) -> Floats:
+    """Return OpenCV's disparities, in sixteenths, as rounding to the nearest would have them.
+
+    OpenCV adds a half to the parabola's offset from the best whole disparity and cuts towards
+    zero, so a negative offset is a step too great: 9 … 15 sixteenths stand for one less, and 0,
+    which collects the offsets from −1.5 to 0.5, for half a step less on the mean.
+    """
+    part = steps % _STEPS
+    return np.asarray(steps - np.where(part == 0, 0.5, part > _STEPS // 2))
+
+
 def matched_disparity_px(
     left: Bytes, right: Bytes, *, least_px: int, count: int, window_px: int
 ) -> Floats:
@@ -64,7 +75,7 @@ def matched_disparity_px(
         found = matcher.compute(pair[0], pair[1])[:, wide:]
         stop = min(rows, start + band)
         steps[start:stop] = found[start - top : stop - top]
-    disparity_px = steps / float(_STEPS)
+    disparity_px = _to_nearest(steps) / _STEPS
     landing = np.arange(cols) - disparity_px
-    matched = (disparity_px >= least_px) & (disparity_px > 0.0) & (landing >= -0.5)
+    matched = (steps >= _STEPS * least_px) & (disparity_px > 0.0) & (landing >= -0.5)
     return np.where(matched, disparity_px, np.nan)

@@ -5,10 +5,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synth.sensor.holes import contrast, half_occluded
+from synth.sensor.rectify import Rectification
 from synth.sensor.rig import Rig
 from synth.spec.sensor import NoiseSpec
 
 Floats = NDArray[np.float64]
+
+_RIM_PX = 2  # the pull is the mean over a window this much smaller: its rim counts less
 
 
 def modelled_depth_m(
@@ -18,20 +21,45 @@ def modelled_depth_m(
     noise: NoiseSpec,
     *,
     rng: np.random.Generator,
+    lens: Rectification | None = None,
 ) -> Floats:
     """Return the z-depth, (rows, cols), that a stereo camera measures; NaN in its holes.
 
-    d = f B / Z + σ_d g, rounded to the matcher's steps, and Z = f B / d. g is normal noise of
-    unit variance that is even over the matching window, so errors of neighbours are alike:
-    σ_Z = Z² σ_d / (f B) (Kim et al. 2005). Holes are where one eye alone sees the surface and
-    where the picture's contrast is below the least that can be matched.
+    d = d₀ + σ_d √(1 + (c₀/c)²) g − A ⟨sin 2πd₀⟩ with d₀ = f B / Z, rounded to the matcher's
+    steps; Z = f B / d. g is normal noise of unit variance that is even over the matching window,
+    so errors of neighbours are alike: σ_Z = Z² σ_d / (f B) (Kim et al. 2005). c is the contrast of
+    `light` as exposed: the part of the error that the pictures' noise makes goes as 1/c (Förstner
+    1982). A is the pull towards whole disparities that a parabola through costs has (Shimizu and
+    Okutomi 2001), a mean over the window's middle. Holes are where one eye alone sees the surface
+    and where c is below the least that can be matched. `lens` is the straightening of the eyes'
+    lens, if they have one.
     """
     exact_px = rig.disparity_px(depth_m)
-    found_px = exact_px + noise.disparity_px * even_noise(depth_m.shape, noise.window_px, rng=rng)
+    texture = contrast(light, noise.window_px)
+    sigma_px = noise.disparity_px * np.hypot(1.0, noise.weak_texture / np.maximum(texture, 1e-3))
+    found_px = exact_px + sigma_px * even_noise(depth_m.shape, noise.window_px, rng=rng)
+    found_px -= noise.locking_px * pull(exact_px, noise.window_px - _RIM_PX)
     if noise.step_px > 0.0:
         found_px = noise.step_px * np.rint(found_px / noise.step_px)
-    holes = half_occluded(exact_px) | (contrast(light, noise.window_px) < noise.min_texture)
+    holes = _hidden(exact_px, lens) | (texture < noise.min_texture)
     return np.where(holes, np.nan, rig.depth_m(found_px))
+
+
+def _hidden(exact_px: Floats, lens: Rectification | None) -> NDArray[np.bool_]:
+    """Tell which pixels one eye alone sees; under a lens, by the straightened pictures' rows."""
+    if lens is None:
+        return half_occluded(exact_px)
+    straight_px = lens.straight_disparity_px(exact_px)
+    return lens.bent_mask(half_occluded(straight_px) | lens.outside_right(straight_px))
+
+
+def pull(disparity_px: Floats, window_px: int) -> Floats:
+    """Return the window's mean of sin 2πd, (rows, cols): how far above a whole disparity it is.
+
+    Where d runs through whole disparities within the window, the pulls cancel.
+    """
+    sines = np.nan_to_num(np.sin(2.0 * np.pi * disparity_px))
+    return np.asarray(cv2.boxFilter(sines, -1, (window_px, window_px)))
 
 
 def even_noise(shape: tuple[int, ...], window_px: int, *, rng: np.random.Generator) -> Floats:

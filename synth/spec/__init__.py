@@ -16,6 +16,7 @@ from synth.spec.surface import SurfaceSpec
 from synth.spec.view import CameraSpec, SunSpec, ViewsSpec
 
 RendererName = Literal["auto", "osmesa", "egl", "embree"]
+MOST_SCENES = 9999
 Seed = Annotated[int, Meta(ge=0, le=2**63 - 1)]
 
 
@@ -23,7 +24,7 @@ class SceneSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """A whole dataset. Scene i is a function of the spec and i alone."""
 
     seed: Seed = 0
-    scenes: Annotated[int, Meta(ge=1, le=9999)] = 1
+    scenes: Annotated[int, Meta(ge=1, le=MOST_SCENES)] = 1
     renderer: RendererName = "auto"
     rocks: RocksSpec = RocksSpec()
     population: PopulationSpec = PopulationSpec()
@@ -34,14 +35,6 @@ class SceneSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     sun: SunSpec = SunSpec()
     noise: NoiseSpec = NoiseSpec()
     sensor: SensorSpec = SensorSpec()
-
-    def __post_init__(self) -> None:
-        """Match pictures of pinholes alone: a lens bends the rows that two eyes share."""
-        if self.noise.kind == "sgm" and any(self.camera.distortion):
-            raise ValueError(
-                "noise.kind: expected no camera.distortion beside 'sgm', "
-                f"found {list(self.camera.distortion)}"
-            )
 
 
 def load_spec(path: Path) -> SceneSpec:

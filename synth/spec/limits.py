@@ -10,7 +10,8 @@ Fraction = Annotated[float, Meta(ge=0, le=1)]
 Ratio = Annotated[float, Meta(gt=0, le=1)]
 PositiveRange = tuple[Positive, Positive]
 RatioRange = tuple[Ratio, Ratio]
-Count = Annotated[int, Meta(ge=1, le=500)]
+MOST = 500  # rocks in a scene, views of it
+Count = Annotated[int, Meta(ge=1, le=MOST)]
 
 
 def check_range(name: str, limits: tuple[float, float]) -> None:

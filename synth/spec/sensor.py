@@ -5,20 +5,25 @@ from typing import Annotated, Literal
 from msgspec import Meta, Struct
 
 NoiseKind = Literal["none", "stereo", "sgm"]
+GreyLevels = Annotated[float, Meta(ge=0, le=255)]  # of 255
 OddWindow = Annotated[int, Meta(ge=3, le=31)]
 
 
 class NoiseSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """How range is measured: exactly, with a stereo camera's error, or by matching two images.
 
-    The defaults of `disparity_px` and `window_px` are those of Kim et al. (2005) for rovers.
+    The default of `disparity_px` is what Kim et al. (2005) measured on targets with a rover's
+    cameras: matching, vertical misalignment and calibration together. docs/dataset.md has the
+    values for pictures as they are rendered here.
     """
 
     kind: NoiseKind = "none"
     disparity_px: Annotated[float, Meta(ge=0, le=10)] = 0.32  # σ_d of a match, `stereo` alone
+    locking_px: Annotated[float, Meta(ge=0, le=0.15)] = 0.0  # pull to whole disparities, `stereo`
+    weak_texture: GreyLevels = 0.0  # contrast at which the variance of σ_d is doubled, `stereo`
     window_px: OddWindow = 7  # side of the matching window, odd
     step_px: Annotated[float, Meta(ge=0, le=1)] = 0.0625  # disparity's steps, `stereo`; 0: none
-    min_texture: Annotated[float, Meta(ge=0, le=255)] = 1.0  # least contrast, grey levels of 255
+    min_texture: GreyLevels = 1.0  # least contrast, `stereo`
 
     def __post_init__(self) -> None:
         """Hold the window to a middle pixel."""

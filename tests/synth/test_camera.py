@@ -28,6 +28,34 @@ def test_presets_have_the_pixel_angles_of_the_instruments():
     assert np.rad2deg(2 * np.arctan(camera.width / 2 / camera.fx)) == pytest.approx(45.0, abs=1.0)
 
 
+@pytest.mark.parametrize(
+    ("name", "across_deg", "down_deg"),
+    [("imp", 14.4, 14.0), ("mer-navcam", 45.0, 45.0), ("mer-pancam", 16.0, 16.0)],
+)
+def test_pinholes_have_the_field_of_their_papers(name, across_deg, down_deg):
+    # The papers round to a degree, IMP's to a tenth of 14.4 by 14.0 with square pixels.
+    camera = PRESETS[name].camera
+    half = np.arctan([camera.width / 2 / camera.fx, camera.height / 2 / camera.fy])
+    np.testing.assert_allclose(2 * np.rad2deg(half), [across_deg, down_deg], atol=0.6)
+
+
+@pytest.mark.parametrize(
+    ("name", "lens_deg", "pinhole_deg"),
+    [
+        ("sojourner", (127.5, 94.5), (96.2, 78.9)),
+        ("mer-hazcam", (124.0, 124.0), (94.2, 94.2)),
+        ("m2020-navcam", (96.0, 73.0), (80.4, 64.7)),
+    ],
+)
+def test_wide_cameras_are_pinholes_with_their_central_pixel(name, lens_deg, pinhole_deg):
+    # With the same angle for every pixel the frame spans the field of the paper, which is rounded
+    # to a degree as the pixel's angle is to two digits; the pinhole's is narrower.
+    camera = PRESETS[name].camera
+    pixels = np.array([camera.width / camera.fx, camera.height / camera.fy])
+    np.testing.assert_allclose(np.rad2deg(pixels), lens_deg, atol=1.0)
+    np.testing.assert_allclose(2 * np.rad2deg(np.arctan(pixels / 2)), pinhole_deg, atol=0.05)
+
+
 def test_refining_keeps_the_field():
     camera = PRESETS["imp"].camera
     fine = camera.refined(2)

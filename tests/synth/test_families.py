@@ -14,7 +14,7 @@ from synth.rocks.quarry import by_relief, by_sphericity
 from synth.rocks.relief import with_relief
 from synth.rocks.scan import scan
 from synth.rocks.sphere import band_limited, unit_sphere
-from synth.rocks.superellipsoid import integrals
+from synth.rocks.superellipsoid import integrals, superellipsoid
 from synth.spec import convert_spec
 from synth.spec.rocks import RocksSpec
 from tests.paths import EXAMPLES
@@ -77,6 +77,44 @@ def test_relief_leaves_the_other_draws_alone():
         assert one.knobs["rounding"] == two.knobs["rounding"]
         assert two.truth.roundness is None
         assert two.truth.relief_degrees == (3, 14)
+
+
+def test_scans_take_relief_without_facets_or_folds():
+    # Loop's rule quarters each facet: the file's 490 become 490 × 4³, and no crease of theirs is
+    # left that turns the normals by more than a few of the relief's own slopes.
+    spec = RocksSpec(count=2, family="scan", series="random", scans=(str(SCAN),), relief=True)
+    rock = quarry(spec, rng=np.random.default_rng(1))[0]
+    assert len(rock.mesh.faces) == 490 * 4**3
+    surface = trimesh.Trimesh(rock.mesh.vertices_m, rock.mesh.faces, process=False)
+    assert surface.is_watertight
+    assert np.median(surface.face_adjacency_angles) < 0.1
+    assert rock.truth.volume_m3 == pytest.approx(surface.volume, rel=1e-9)
+
+
+def test_relief_on_smooth_forms_starts_from_the_form_itself():
+    # Halving the edges moves the volume towards the form's by the facets' own 5e-4.
+    for base in (ellipsoid(HALF_AXES_M), superellipsoid(HALF_AXES_M, exponents=(3.0, 4.0))):
+        one, two = (
+            with_relief(
+                base,
+                relief_rms=1e-6,
+                degrees=(3, 6),
+                rng=np.random.default_rng(0),
+                halvings=halvings,
+            )
+            for halvings in (0, 1)
+        )
+        exact = base.truth.volume_m3
+        errors = [1.0 - rock.truth.volume_m3 / exact for rock in (one, two)]
+        assert 3.5 < errors[0] / errors[1] < 4.5
+
+
+def test_harmonics_at_one_point_are_the_same_in_any_company():
+    # Heights shared between points are rounded to 14 digits; slopes are some 20 per radian.
+    directions = unit_sphere(3)[0]
+    every = band_limited(directions, degrees=(3, 20), rng=np.random.default_rng(5))
+    few = band_limited(directions[40:43], degrees=(3, 20), rng=np.random.default_rng(5))
+    np.testing.assert_allclose(few, every[40:43], atol=1e-12)
 
 
 def test_relief_that_folds_is_refused():

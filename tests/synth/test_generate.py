@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from synth.camera import PRESETS
-from synth.dataset import PARTIAL, depth_scale_mm, encode_depth
+from synth.dataset import PARTIAL, depth_scale_mm, encode_depth, scene_name
 from synth.errors import InputError
 from synth.generate import generate_dataset
 from synth.scene import build_scene
@@ -58,6 +58,57 @@ def test_a_whole_dataset_is_left_alone(dataset):
     before = (dataset / "manifest.json").stat().st_mtime_ns
     generate_dataset(SPEC, dataset)
     assert (dataset / "manifest.json").stat().st_mtime_ns == before
+
+
+@pytest.mark.parametrize(
+    ("lost", "again"),
+    [
+        ("000001/mask/000001_000002.png", [1]),
+        ("models/obj_000002.ply", [0]),
+        ("contact_sheet.png", []),
+    ],
+)
+def test_what_a_whole_dataset_has_lost_is_made_again(dataset, tmp_path, capsys, lost, again):
+    out = tmp_path / "gaps"
+    shutil.copytree(dataset, out)
+    (out / lost).unlink()
+    before = [(out / scene_name(index)).stat().st_ino for index in range(2)]
+    generate_dataset(SPEC, out, show_progress=True)
+    after = [(out / scene_name(index)).stat().st_ino for index in range(2)]
+    assert [index for index in range(2) if before[index] != after[index]] == again
+    assert digests(out) == digests(dataset)
+    assert f"{lost} is missing" in capsys.readouterr().err.splitlines()[0]
+
+
+def test_a_run_that_fails_at_once_leaves_nothing(tmp_path):
+    tight = SceneSpec(
+        scenes=3,
+        rocks=RocksSpec(count=40, family="rounded-box", series="random"),
+        camera=CameraSpec(preset="imp"),
+    )
+    (tmp_path / "empty").mkdir()
+    for name in ("new", "empty"):
+        with pytest.raises(InputError, match="full"):
+            generate_dataset(tight, tmp_path / name, jobs=2)
+    assert not (tmp_path / "new").exists()
+    assert not any((tmp_path / "empty").iterdir())
+
+
+def test_odd_folders_are_refused(tmp_path):
+    (tmp_path / "nowhere").symlink_to(tmp_path / "absent")
+    (tmp_path / "file").write_text("mine")
+    (tmp_path / "odd" / "manifest.json").mkdir(parents=True)
+    (tmp_path / "bare").mkdir()
+    (tmp_path / "bare" / "manifest.json").write_text("{}")
+    for name, words in (
+        ("nowhere", "found a link to nowhere"),
+        ("file/within", "expected a folder to write to"),
+        ("odd", "found other files"),
+        ("bare", "found one with None"),
+    ):
+        with pytest.raises(InputError, match=words):
+            generate_dataset(SPEC, tmp_path / name)
+    assert not (tmp_path / "absent").exists()
 
 
 def test_another_spec_or_other_files_are_refused(dataset, tmp_path):

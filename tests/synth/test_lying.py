@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from synth.camera import Camera, distorted, look_at, project, undistorted
+from synth.camera import look_at, project
 from synth.errors import InputError
 from synth.ground import make_ground
 from synth.mesh import volume_m3
@@ -123,18 +123,6 @@ def test_ripples_have_their_height():
     # Crest at 1.2, trough at −0.8 of half the height: the second harmonic moves both up.
     assert np.ptp(z) == pytest.approx(0.03, rel=0.02)
     assert ground.plane_normal() is None
-
-
-def test_the_lens_and_its_inverse_cancel():
-    camera = Camera(500.0, 500.0, 255.5, 255.5, 512, 512, distortion=(-0.2, 0.05, 1e-3, -2e-3, 0.0))
-    x, y = np.meshgrid(np.linspace(-0.5, 0.5, 9), np.linspace(-0.5, 0.5, 9))
-    back = undistorted(camera, *distorted(camera, x, y))
-    np.testing.assert_allclose(back, (x, y), atol=1e-9)
-    # OpenCV's own example of the model: radial, then tangential.
-    pixel = project(camera, np.array([0.3, -0.4, 1.0]))
-    radial = 1 - 0.2 * 0.25 + 0.05 * 0.0625
-    tangent = 2e-3 * 0.3 * -0.4 - 2e-3 * (0.25 + 0.18)
-    assert pixel[0] == pytest.approx(500 * (0.3 * radial + tangent) + 255.5)
 
 
 def test_paths_look_at_the_target():

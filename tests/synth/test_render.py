@@ -118,3 +118,28 @@ def test_missing_backend_names_the_package(monkeypatch):
     with pytest.raises(MissingBackendError, match="libosmesa6") as caught:
         choose_backend("auto")
     assert caught.value.exit_status == 3
+
+
+CONTEXTS = """
+import sys
+from synth.light import light_scene
+from synth.render import open_renderer, render_view
+from synth.scene import build_scene
+from synth.spec import convert_spec
+table = {"rocks": {"count": 2, "family": "rounded-box"}, "camera": {"preset": "imp"}}
+spec = convert_spec(table, where="test")
+scene = build_scene(spec, 0)
+stage = light_scene(scene, spec.sun, spec.surface)
+renderer = open_renderer(sys.argv[1], stage, scene.camera)
+from OpenGL import contextdata
+for pose in scene.poses:
+    render_view(renderer, stage, scene.camera, pose, supersample=1)
+    print(sum(len(storage) for storage in contextdata.STORAGES))
+"""
+
+
+@pytest.mark.parametrize("backend", [backend for backend in PRESENT if backend != "embree"])
+def test_nothing_is_held_of_contexts_that_are_gone(backend):
+    command = [sys.executable, "-c", CONTEXTS, backend]
+    found = subprocess.run(command, check=True, capture_output=True, text=True).stdout.split()
+    assert found == ["0"] * 4

@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
+from synth import scene as scene_module
 from synth.camera import project
 from synth.errors import InputError
+from synth.rocks import quarry
 from synth.scene import build_scene
 from synth.spec import SceneSpec
 from synth.spec.rocks import RocksSpec
@@ -50,3 +52,22 @@ def test_full_ground_is_one_line():
     with pytest.raises(InputError, match=r"rocks\.count: the ground in view is full") as caught:
         build_scene(spec, 0)
     assert "\n" not in str(caught.value)
+
+
+def test_a_crowd_is_refused_before_its_rocks_are_made(monkeypatch):
+    asked = []
+
+    def counted(spec, *, rng):
+        asked.append(spec.count)
+        return quarry(spec, rng=rng)
+
+    monkeypatch.setattr(scene_module, "quarry", counted)
+    spec = SceneSpec(rocks=RocksSpec(count=400, family="rounded-box"))
+    with pytest.raises(InputError, match=r"expected at most \d+ rocks .* found 400"):
+        build_scene(spec, 0)
+    assert max(asked) < 20
+
+
+def test_a_crowd_that_fits_is_laid():
+    rocks = RocksSpec(count=40, family="rounded-box", diameter_m=(0.08, 0.1), spacing=1.0)
+    assert len(build_scene(SceneSpec(rocks=rocks), 0).rocks) == 40

@@ -60,7 +60,6 @@ def test_jpeg_loses_more_at_lower_quality(rng):
         ({"sensor": {"jpeg_quality": 80, "bits": 12}}, "jpeg_quality"),
         ({"sensor": {"bits": 10}}, "bits"),
         ({"noise": {"window_px": 6}}, "window_px"),
-        ({"noise": {"kind": "sgm"}, "camera": {"distortion": [0.1, 0, 0, 0, 0]}}, "distortion"),
     ],
 )
 def test_specs_that_no_sensor_has_are_refused(table, key):

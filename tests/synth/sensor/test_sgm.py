@@ -67,3 +67,15 @@ def test_search_range_holds_the_scene_and_is_a_multiple_of_16():
     assert low + count > 90
     assert count % 16 == 0
     assert search_range_px(np.array([[0.5]]))[0] == 0
+
+
+def test_steps_are_rounded_to_the_nearest(pattern):
+    # OpenCV cuts towards zero: what lies below a whole disparity by 4 steps comes out 3 below.
+    # A shift by a quarter and by three quarters are each other's mirror image, so their errors
+    # are opposite, where a cut leaves both 1/32 px too great.
+    errors_px = []
+    for disparity_px in (20.25, 20.75):
+        left, right = shifted(pattern, disparity_px)
+        found = matched_disparity_px(left, right, least_px=8, count=32, window_px=7)
+        errors_px.append(np.nanmean(found[8:-8, 30:-8]) - disparity_px)
+    assert abs(sum(errors_px)) / 2.0 < 0.01

@@ -7,7 +7,7 @@ from synth.errors import InputError
 from synth.sensor import rig as rig_module
 from synth.sensor.holes import contrast, half_occluded
 from synth.sensor.rig import Rig, rig_of
-from synth.sensor.stereo import even_noise, modelled_depth_m
+from synth.sensor.stereo import even_noise, modelled_depth_m, pull
 from synth.spec.sensor import NoiseSpec
 
 RIG = Rig(focal_px=1000.0, baseline_m=0.2)
@@ -124,3 +124,28 @@ def test_one_eye_is_refused(monkeypatch):
     monkeypatch.setitem(rig_module.PRESETS, "imp", lone)
     with pytest.raises(InputError, match=r"noise\.kind.*two eyes.*'imp'"):
         rig_of("imp")
+
+
+def test_the_error_grows_where_the_texture_is_weak(rng):
+    # Columns change by 127.5 grey levels on the left and by 2.55 on the right half.
+    exact = np.full((300, 840), 5.0)
+    light = checkered(exact.shape)
+    light[:, 420:] = 0.5 + (light[:, 420:] - 0.25) * 0.02
+    noise = NoiseSpec(kind="stereo", disparity_px=0.1, weak_texture=5.1, step_px=0.0)
+    found = RIG.disparity_px(modelled_depth_m(exact, light, RIG, noise, rng=rng)) - 40.0
+    # c₀/c is 0.04 and 2: σ_d √(1 + c₀²/c²). 40 × 50 windows: σ is known to 1.6 %; four of them.
+    assert np.nanstd(found[:, :410]) == pytest.approx(0.1, rel=0.065)
+    assert np.nanstd(found[:, 430:]) == pytest.approx(0.1 * np.sqrt(5.0), rel=0.065)
+
+
+def test_the_pull_is_towards_whole_disparities(rng):
+    noise = NoiseSpec(kind="stereo", disparity_px=0.0, step_px=0.0, locking_px=0.1)
+    for part, pulled in ((0.0, 0.0), (0.25, -0.1), (0.5, 0.0), (0.75, 0.1)):
+        exact = RIG.depth_m(np.full((20, 80), 20.0 + part))
+        found = RIG.disparity_px(modelled_depth_m(exact, checkered((20, 80)), RIG, noise, rng=rng))
+        np.testing.assert_allclose(found[:, 30:], 20.0 + part + pulled, atol=1e-9)
+
+
+def test_the_pulls_of_a_whole_period_within_the_window_cancel():
+    disparity_px = np.tile(20.0 + np.arange(70) / 7.0, (9, 1))
+    np.testing.assert_allclose(pull(disparity_px, 7)[:, 3:-3], 0.0, atol=1e-12)

@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.pipeline import Measurement, Rock
+from rockshape.measurement import Measurement, Rock
 
 OUTLINE = (255, 209, 56)  # RGB: yellow and blue stay apart for every kind of colour vision
 ELLIPSE = (64, 180, 255)

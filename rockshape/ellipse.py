@@ -7,10 +7,14 @@ from numpy.typing import NDArray
 
 FEWEST_POINTS = 6  # one more than an ellipse has unknowns
 LARGEST = 10.0  # semi-axis in RMS radii of the outline: two parallel lines ask for infinity
+ON_A_LINE = 1e-12  # least over summed spread of points whose ellipse is not determined
 FLATTEST = 1e-3  # axis ratio below which the conic is a pair of lines
 
+_NEWTON_STEPS = 50
+_NEWTON_SETTLED = 1e-14  # of the squared semi-axis
+
 # 4ac - b² of the conic a x² + b xy + c y² + ...: positive for an ellipse
-_CONSTRAINT = np.array([[0.0, 0.0, 2.0], [0.0, -1.0, 0.0], [2.0, 0.0, 0.0]])
+_CONSTRAINT_INVERSE = np.array([[0.0, 0.0, 0.5], [0.0, -1.0, 0.0], [0.5, 0.0, 0.0]])
 
 
 @dataclass(frozen=True)
@@ -36,15 +40,49 @@ class Ellipse:
         orthogonal distance by a factor of up to (a² + b²)/(2ab). The centre itself lies -b away.
         Source: Fox et al. (2002), figure 2.
         """
-        offset = points - (self.x, self.y)
-        cosine, sine = np.cos(self.angle_rad), np.sin(self.angle_rad)
-        u = offset @ (cosine, sine)
-        v = offset @ (-sine, cosine)
-        length = np.hypot(u, v)
-        level = np.hypot(u / self.major, v / self.minor)
+        u, v = self._own_axes(points)
+        length = np.sqrt(u * u + v * v)
+        u /= self.major
+        v /= self.minor
+        level = np.sqrt(u * u + v * v)
         with np.errstate(divide="ignore", invalid="ignore"):
             distance = length * (1 - 1 / level)
-        return np.where(level > 0, distance, -self.minor)
+        return np.asarray(np.where(level > 0, distance, -self.minor))
+
+    def orthogonal_distance(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Signed distances (n,) of points (n, 2), outside positive, to the nearest point.
+
+        With the point (u, v) in the first quadrant of the ellipse's own axes the nearest point is
+        (a² u/(t + a²), b² v/(t + b²)), t the greatest root of
+        F(t) = (a u/(t + a²))² + (b v/(t + b²))² - 1. F falls and is convex right of -b², so that
+        Newton's steps from the left of the root approach it from the left. On the major axis
+        nearer to the centre than (a² - b²)/a the term in v is no part of F: there t = -b².
+        Source: Eberly (2013), Distance from a point to an ellipse; for the paper's own distance
+        see `radial_distance`.
+        """
+        a, b = 1.0, self.minor / self.major
+        u, v = np.abs(self._own_axes(points)) / self.major
+        t = np.maximum(b * v - b * b, u - 1.0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            for _ in range(_NEWTON_STEPS):
+                first, second = (u / (t + a)) ** 2, (b * v / (t + b * b)) ** 2
+                step = (first + second - 1) / (2 * (first / (t + a) + second / (t + b * b)))
+                step = np.where(np.isfinite(step), step, 0.0)
+                t += np.maximum(step, 0.0)
+                if not np.any(step > _NEWTON_SETTLED):
+                    break
+            near_u, near_v = u / (t + a), b * b * v / (t + b * b)
+        inner = t + b * b <= _NEWTON_SETTLED
+        near_u = np.where(inner, u / (1 - b * b) if b < 1 else 0.0, near_u)
+        near_v = np.where(inner, b * np.sqrt(np.clip(1 - near_u**2, 0, None)), near_v)
+        distance = self.major * np.hypot(u - near_u, v - near_v)
+        return np.asarray(np.where(u**2 + (v / b) ** 2 >= 1, distance, -distance))
+
+    def _own_axes(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Points (n, 2) from the centre along the major and the minor axis, (2, n)."""
+        cosine, sine = np.cos(self.angle_rad), np.sin(self.angle_rad)
+        turn = np.array([[cosine, sine], [-sine, cosine]])
+        return np.asarray(turn @ (points.T - [[self.x], [self.y]]))
 
 
 def fit_ellipse(points: NDArray[np.float64]) -> Ellipse | None:
@@ -61,46 +99,59 @@ def fit_ellipse(points: NDArray[np.float64]) -> Ellipse | None:
     """
     if len(points) < FEWEST_POINTS:
         return None
-    centre = points.mean(axis=0)
-    scale = float(np.sqrt(((points - centre) ** 2).sum(axis=1).mean()))
+    columns = points.T.copy()
+    centre = columns.mean(axis=1)
+    columns -= centre[:, None]
+    scale = float(np.sqrt(np.vdot(columns, columns) / len(points)))
     if scale == 0:
         return None
-    x, y = ((points - centre) / scale).T
-    quadratic = np.column_stack([x * x, x * y, y * y])
-    linear = np.column_stack([x, y, np.ones_like(x)])
-    scatter = linear.T @ linear
-    if np.linalg.cond(scatter) > 1e12:
+    x, y = columns / scale
+    carrier = np.stack([x * x, x * y, y * y, x, y, np.ones_like(x)])
+    scatter = carrier @ carrier.T / len(points)
+    # centred and scaled: the linear block is (xx, xy; xy, yy) with xx + yy = 1, apart from the 1
+    xx, xy, yy = scatter[0, 5], scatter[1, 5], scatter[2, 5]
+    least = (1 - np.hypot(xx - yy, 2 * xy)) / 2
+    if least < ON_A_LINE:
         return None
-    reduce = -np.linalg.solve(scatter, linear.T @ quadratic)
-    system = np.linalg.solve(_CONSTRAINT, quadratic.T @ (quadratic + linear @ reduce))
-    _, vectors = np.linalg.eig(system)
-    vectors = np.real(vectors)
+    reduce = -np.linalg.solve(scatter[3:, 3:], scatter[3:, :3])
+    system = _CONSTRAINT_INVERSE @ (scatter[:3, :3] + scatter[:3, 3:] @ reduce)
+    vectors = np.linalg.eig(system)[1].real
     ellipse_like = 4 * vectors[0] * vectors[2] - vectors[1] ** 2
-    if not np.max(ellipse_like) > 0:
+    best = int(ellipse_like.argmax())
+    if not ellipse_like[best] > 0:
         return None
-    conic = vectors[:, int(np.argmax(ellipse_like))]
-    return _from_conic(np.concatenate([conic, reduce @ conic]), centre, scale)
+    conic = vectors[:, best]
+    return from_conic(np.concatenate([conic, reduce @ conic]), centre, scale)
 
 
-def _from_conic(
+def from_conic(
     conic: NDArray[np.float64], centre: NDArray[np.float64], scale: float
 ) -> Ellipse | None:
-    a, b, c, d, e, f = conic
-    shape = np.array([[a, b / 2], [b / 2, c]])
-    values, axes = np.linalg.eigh(shape)
-    if np.abs(values).min() <= FLATTEST**2 * np.abs(values).max():
+    """Ellipse of a conic (6,) in x², xy, y², x, y, 1 of points moved by centre and over scale.
+
+    None for a conic that is no ellipse, is flatter than two lines, or is far too large.
+    """
+    a, b, c, d, e, f = (float(value) for value in conic)
+    # the quadratic part [[a, b/2], [b/2, c]] has the eigenvalues mean +- half
+    mean, half = (a + c) / 2, float(np.hypot((a - c) / 2, b / 2))
+    low, high = mean - half, mean + half
+    determinant = a * c - b * b / 4
+    if min(abs(low), abs(high)) <= FLATTEST**2 * max(abs(low), abs(high)):
         return None
-    middle = np.linalg.solve(shape, [-d / 2, -e / 2])
-    squares = (middle @ shape @ middle - f) / values
-    if np.any(squares <= 0) or np.any(squares > LARGEST**2):
+    x, y = (b * e / 4 - c * d / 2) / determinant, (b * d / 4 - a * e / 2) / determinant
+    level = a * x * x + b * x * y + c * y * y - f
+    squares = (level / low, level / high)
+    if min(squares) <= 0 or max(squares) > LARGEST**2:
         return None
-    longest = int(np.argmax(squares))
-    direction = axes[:, longest]
-    angle = float(np.arctan2(direction[1], direction[0]))
-    if angle <= -np.pi / 2:
-        angle += np.pi
-    elif angle > np.pi / 2:
-        angle -= np.pi
-    x, y = centre + scale * middle
-    major, minor = scale * np.sqrt([squares[longest], squares[1 - longest]])
-    return Ellipse(x=float(x), y=float(y), major=float(major), minor=float(minor), angle_rad=angle)
+    # the eigenvector of `high` lies at half the angle of (a - c, b)
+    angle = float(np.arctan2(b, a - c)) / 2
+    if squares[0] > squares[1]:
+        angle += np.pi / 2 if angle <= 0 else -np.pi / 2
+    major, minor = scale * np.sqrt([max(squares), min(squares)])
+    return Ellipse(
+        x=float(centre[0] + scale * x),
+        y=float(centre[1] + scale * y),
+        major=float(major),
+        minor=float(minor),
+        angle_rad=angle,
+    )

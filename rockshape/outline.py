@@ -26,5 +26,8 @@ def trace_outline(mask: NDArray[np.bool_]) -> NDArray[np.float64]:
 
 def signed_area(outline_px: NDArray[np.float64]) -> float:
     """Area within a closed polygon (n, 2); positive where it runs clockwise as seen (y down)."""
-    x, y = outline_px.T
-    return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
+    if len(outline_px) == 0:
+        return 0.0
+    x, y = outline_px.T.copy()
+    around = x[-1] * y[0] - y[-1] * x[0]
+    return float(x[:-1] @ y[1:] - y[:-1] @ x[1:] + around) / 2

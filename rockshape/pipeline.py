@@ -6,45 +6,19 @@ import numpy as np
 import scipy.ndimage as ndi
 from numpy.typing import NDArray
 
-from rockshape.ellipse import Ellipse, fit_ellipse
-from rockshape.ellipsoid import Ellipsoid, fit_ellipsoid
+from rockshape.camera import Camera
+from rockshape.descriptors import describe_smooth
+from rockshape.ellipse import Ellipse
+from rockshape.ellipsoid import Ellipsoid
 from rockshape.errors import InputError
-from rockshape.ground import Plane, fit_plane
-from rockshape.measures import METHODS, Measure, RockView
+from rockshape.ground import Plane
+from rockshape.measurement import Measurement, Rock
+from rockshape.measures import METHODS
 from rockshape.observation import Observation
-from rockshape.outline import trace_outline
-from rockshape.segmentation import segment
-from rockshape.surface import fit_surface, view_patch
-from rockshape.visibility import measured_frame, touches_border, visible_fraction
-
-
-@dataclass(frozen=True, eq=False)
-class Rock:
-    """One rock's row of the table, with the outline and fits it was measured on."""
-
-    number: int  # the value of its pixels in the label image
-    row: float  # centroid of its pixels
-    col: float
-    area_px: int
-    width_px: int
-    height_px: int
-    truncated: bool  # touches the border of the frame, or of its measured part if found by range
-    visible_fraction: float  # of the fitted ellipse, in the frame and not behind a nearer rock
-    outline_px: NDArray[np.float64]  # (n, 2) as (x, y)
-    ellipse: Ellipse | None
-    ellipsoid: Ellipsoid | None
-    values: dict[str, float]  # by the measures' columns
-    reason: str  # why a value is NaN; empty where none is
-
-
-@dataclass(frozen=True, eq=False)
-class Measurement:
-    """What was found in one image."""
-
-    method: str
-    labels: NDArray[np.int32]  # (rows, cols), 0 the ground
-    ground: Plane | None
-    rocks: tuple[Rock, ...]  # in the order of their numbers
+from rockshape.range_noise import RangeNoise, estimate_range_noise
+from rockshape.rock_view import RockView
+from rockshape.segmentation import Found, Variant, ground_under, segment
+from rockshape.visibility import visible_fraction
 
 
 def measure(
@@ -52,12 +26,14 @@ def measure(
     *,
     method: str = "paper",
     labels: NDArray[np.int32] | None = None,
+    descriptors: bool = False,
 ) -> Measurement:
     """Find the rocks in an observation and measure each.
 
     With labels, (rows, cols) of whole numbers with 0 the ground, nothing is segmented; of a number
-    in several pieces the largest is measured. Without labels and without range there is nothing to
-    find rocks by: no rock is returned.
+    in several pieces the largest is measured. The published way needs range to find rocks by:
+    without labels and range `paper` returns none. With descriptors, each rock gets the everyday
+    numbers of its outline too.
     Raises InputError for an unknown method or labels of another shape.
     """
     if method not in METHODS:
@@ -66,17 +42,37 @@ def measure(
     if labels is not None and labels.shape != shape:
         raise InputError(f"labels: expected {shape} as the image has, found {labels.shape}")
     points_m = observation.points_m
-    ground = None if points_m is None else fit_plane(points_m)
-    frame = (slice(0, shape[0]), slice(0, shape[1]))
+    variant: Variant = "robust" if method == "robust" else "paper"
+    found: tuple[Found, ...] = ()
     if labels is None:
-        labels = np.zeros(shape, dtype=np.int32)
-        if ground is not None and points_m is not None:
-            height_m = ground.height_m(points_m)
-            labels = segment(height_m, sigma_m=ground.sigma_m)
-            frame = measured_frame(np.isfinite(height_m))
-    scene = _Scene(labels=labels, points_m=points_m, frame=frame, measures=METHODS[method])
+        segmentation = segment(observation, variant=variant)
+        labels, ground, frame = segmentation.labels, segmentation.ground, segmentation.frame
+        found = segmentation.found
+    else:
+        ground = ground_under(observation, variant=variant)
+        frame = (slice(0, shape[0]), slice(0, shape[1]))
+    noise = None
+    if method == "robust" and ground is not None and points_m is not None:
+        noise = estimate_range_noise(points_m, ground, labels != 0)
+    scene = _Scene(
+        labels=labels,
+        points_m=points_m,
+        camera=observation.camera,
+        ground=ground,
+        noise=noise,
+        frame=frame,
+        method=method,
+        described=descriptors,
+    )
     rocks = tuple(_measure_rock(scene, patch) for patch in _patches(labels))
-    return Measurement(method=method, labels=labels, ground=ground, rocks=rocks)
+    return Measurement(
+        method=method,
+        labels=labels,
+        ground=ground,
+        rocks=rocks,
+        found=found,
+        described=descriptors,
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,8 +81,12 @@ class _Scene:
 
     labels: NDArray[np.int32]  # (rows, cols)
     points_m: NDArray[np.float64] | None  # (rows, cols, 3)
+    camera: Camera | None
+    ground: Plane | None
+    noise: RangeNoise | None
     frame: tuple[slice, slice]  # rows and columns in which rocks could be found
-    measures: tuple[Measure, ...]
+    method: str
+    described: bool  # whether descriptors are wanted
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,7 +126,8 @@ def _largest_part(number: int, window: tuple[slice, slice], mask: NDArray[np.boo
 def _measure_rock(scene: _Scene, patch: _Patch) -> Rock:
     rows, cols = patch.window
     view = _view_rock(scene, patch)
-    values = {measure.column: measure.evaluate(view) for measure in scene.measures}
+    ellipse, ellipsoid = _fits(view, scene.method)
+    readings = {measure.column: measure.read(view) for measure in METHODS[scene.method]}
     pixel_rows, pixel_cols = np.nonzero(patch.mask)
     return Rock(
         number=patch.number,
@@ -135,47 +136,31 @@ def _measure_rock(scene: _Scene, patch: _Patch) -> Rock:
         area_px=len(pixel_rows),
         width_px=cols.stop - cols.start,
         height_px=rows.stop - rows.start,
-        truncated=touches_border(patch.window, scene.frame),
-        visible_fraction=visible_fraction(patch.number, view.ellipse, scene.labels, scene.points_m),
+        truncated=view.truncated,
+        visible_fraction=visible_fraction(patch.number, ellipse, scene.labels, scene.points_m),
         outline_px=view.outline_px,
-        ellipse=view.ellipse,
-        ellipsoid=None if view.ellipsoid is None else view.ellipsoid.ellipsoid,
-        values=values,
-        reason=_reason(scene, view, values),
+        ellipse=ellipse,
+        ellipsoid=ellipsoid,
+        readings=readings,
+        descriptors=describe_smooth(view.smooth_outline_px) if scene.described else None,
     )
+
+
+def _fits(view: RockView, method: str) -> tuple[Ellipse | None, Ellipsoid | None]:
+    """The ellipse and ellipsoid that a method's measures are of."""
+    if method == "robust":
+        return view.form_ellipse, view.held_ellipsoid
+    return view.ellipse, None if view.ellipsoid is None else view.ellipsoid.ellipsoid
 
 
 def _view_rock(scene: _Scene, patch: _Patch) -> RockView:
-    """Outline, points and those fits of one rock that its pixels and points determine."""
     rows, cols = patch.window
-    outline = trace_outline(patch.mask) + np.array([cols.start, rows.start])
-    points = np.empty((0, 3))
-    if scene.points_m is not None:
-        points = scene.points_m[patch.window][patch.mask]
-        points = points[np.isfinite(points).all(axis=1)]
-    graph = view_patch(points)
-    ellipsoid = fit_ellipsoid(points)
-    if ellipsoid is not None and (ellipsoid.bounded or not ellipsoid.converged):
-        ellipsoid = None
     return RockView(
-        outline_px=outline,
-        points_m=points,
-        ellipse=fit_ellipse(outline),
-        ellipsoid=ellipsoid,
-        surface=None if graph is None else fit_surface(graph),
+        mask=patch.mask,
+        corner=(rows.start, cols.start),
+        grid_m=None if scene.points_m is None else scene.points_m[patch.window],
+        camera=scene.camera,
+        ground=scene.ground,
+        frame=scene.frame,
+        noise=scene.noise,
     )
-
-
-def _reason(scene: _Scene, view: RockView, values: dict[str, float]) -> str:
-    """Why values are NaN: `no range`, `too small` or `degenerate`, each said once."""
-    reasons = []
-    for measure in scene.measures:
-        if np.isfinite(values[measure.column]):
-            continue
-        if measure.needs_range and len(view.points_m) == 0:
-            reasons.append("no range")
-        elif len(view.points_m if measure.needs_range else view.outline_px) < measure.fewest:
-            reasons.append("too small")
-        else:
-            reasons.append("degenerate")
-    return "; ".join(dict.fromkeys(reasons))

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
 from rockshape.draw import overlay
@@ -15,9 +16,10 @@ from rockshape.io.coco import read_coco
 from rockshape.io.files import check_writable, write_bytes
 from rockshape.io.images import LABEL_IMAGES, PICTURES
 from rockshape.io.tables import TABLES, write_table
+from rockshape.measurement import Measurement
 from rockshape.measures import METHODS
 from rockshape.observation import Observation
-from rockshape.pipeline import Measurement, measure
+from rockshape.pipeline import measure
 from rockshape.report import render_page
 from rockshape.table import to_frame
 
@@ -76,7 +78,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--method", choices=METHODS, default="paper", help="which measures")
     parser.add_argument(
+        "--descriptors",
+        action="store_true",
+        help="add perimeter, Feret diameters, circularity and the like to the table",
+    )
+    parser.add_argument(
         "--out", type=Path, metavar="FILE", help="table: .csv, .json or .parquet (else printed)"
+    )
+    parser.add_argument(
+        "--flags", action="store_true", help="add to the table how each rock was found and seen"
     )
     parser.add_argument(
         "--labels-out",
@@ -106,13 +116,16 @@ def run(args: argparse.Namespace) -> int:
             f"{args.labels}: expected numbers up to {MOST_16_BITS} for --labels-out, "
             f"found {labels.max()}"
         )
-    if points_m is None and labels is None:
+    if points_m is None and labels is None and args.method != "robust":
         raise InputError(
             "measure: expected --range or --labels to find the rocks by, found neither"
         )
     observation = Observation(image=image, points_m=points_m, camera=camera)
-    measurement = measure(observation, method=args.method, labels=labels)
-    _write(outputs, args.image.name, observation, measurement)
+    measurement = measure(
+        observation, method=args.method, labels=labels, descriptors=args.descriptors
+    )
+    frame = to_frame(measurement, flags=args.flags)
+    _write(outputs, args.image.name, observation, measurement, frame=frame)
     print(_summary(observation, measurement), file=sys.stderr)
     return 0
 
@@ -123,8 +136,14 @@ def _read_labels(path: Path, image: Path, shape: tuple[int, ...]) -> NDArray[np.
     return read_labels(path, shape=shape)
 
 
-def _write(outputs: Outputs, name: str, observation: Observation, measurement: Measurement) -> None:
-    frame = to_frame(measurement)
+def _write(
+    outputs: Outputs,
+    name: str,
+    observation: Observation,
+    measurement: Measurement,
+    *,
+    frame: pd.DataFrame,
+) -> None:
     if outputs.table is None:
         print(frame.to_csv(index=False, float_format="%.9g"), end="")
     else:

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import msgspec
 import numpy as np
+import skimage.draw
 from numpy.typing import NDArray
-from skimage.draw import polygon as fill_polygon
 
 from rockshape.errors import InputError
 from rockshape.io.files import read_bytes
@@ -85,5 +85,5 @@ def _mask(path: Path, annotation: _Annotation, shape: tuple[int, ...]) -> NDArra
             raise InputError(f"{where}: expected polygons of three points or more")
         # COCO's corners are pixel corners: half a pixel before the centres
         x, y = np.array(polygon).reshape(-1, 2).T - 0.5
-        mask[fill_polygon(y, x, shape=shape[:2])] = True
+        mask[skimage.draw.polygon(y, x, shape=shape[:2])] = True
     return mask

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import cv2
 import numpy as np
-import tifffile
 from numpy.typing import NDArray
 from PIL import Image
 
 from rockshape.errors import InputError
+from rockshape.grey import to_grey
 from rockshape.io.files import check_writable, read_bytes, write_bytes
 
 IMAGE = "an image (PNG, JPEG or TIFF)"
@@ -30,14 +30,7 @@ def read_image(path: Path | str) -> NDArray[np.float32]:
     pixels = decode(path, what=IMAGE)
     if pixels.dtype not in (np.uint8, np.uint16):
         raise InputError(f"{path}: expected 8 or 16 bits a channel, found {pixels.dtype}")
-    full = np.float32(255 if pixels.dtype == np.uint8 else 65535)
-    if pixels.ndim == 3:
-        pixels = (
-            pixels[..., 0]
-            if pixels.shape[2] < 3
-            else cv2.cvtColor(np.ascontiguousarray(pixels[..., :3]), cv2.COLOR_RGB2GRAY)
-        )
-    return np.asarray(pixels, dtype=np.float32) / full
+    return to_grey(pixels)
 
 
 def read_labels(path: Path | str, *, shape: tuple[int, ...]) -> NDArray[np.int32]:
@@ -84,6 +77,8 @@ def decode(path: Path, *, what: str) -> NDArray[np.generic]:
 
 
 def _first_page(data: bytes) -> NDArray[np.generic]:
+    import tifffile  # noqa: PLC0415 - other images do without its 20 ms
+
     with tifffile.TiffFile(io.BytesIO(data)) as file:
         if len(file.series) > 1 or len(file.series[0].pages) > 1:
             raise ValueError(f"{len(file.pages)} pages")

@@ -5,7 +5,6 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from trimesh.exchange.ply import load_ply
 
 from rockshape.camera import Camera
 from rockshape.errors import InputError
@@ -90,6 +89,8 @@ def _read_numpy(path: Path) -> NDArray[np.generic]:
 
 def _read_ply(path: Path, shape: tuple[int, ...]) -> NDArray[np.generic]:
     """Vertices of a PLY, one a pixel, in the image's reading order."""
+    from trimesh.exchange.ply import load_ply  # noqa: PLC0415 - it takes 0.3 s
+
     data = read_bytes(path, what=RANGE)
     try:
         vertices = np.asarray(load_ply(io.BytesIO(data), fix_texture=False)["vertices"])

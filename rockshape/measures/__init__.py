@@ -6,20 +6,31 @@ from rockshape.measures import (
     axis_ratio,
     ellipse_error,
     ellipsoid_error,
+    roundness,
     sphericity_2d,
     sphericity_3d,
 )
-from rockshape.measures.measure import Measure, RockView
+from rockshape.measures.measure import Measure, Reading, Reason
 
 PAPER = (
-    axis_ratio.MEASURE,
-    ellipse_error.MEASURE,
-    sphericity_2d.MEASURE,
-    angularity_2d.MEASURE,
-    ellipsoid_error.MEASURE,
-    sphericity_3d.MEASURE,
-    angularity_3d.MEASURE,
+    axis_ratio.PAPER,
+    ellipse_error.PAPER,
+    sphericity_2d.PAPER,
+    angularity_2d.PAPER,
+    ellipsoid_error.PAPER,
+    sphericity_3d.PAPER,
+    angularity_3d.PAPER,
 )
-METHODS: dict[str, tuple[Measure, ...]] = {"paper": PAPER}
+ROBUST = (
+    axis_ratio.ROBUST,
+    ellipse_error.ROBUST,
+    sphericity_2d.ROBUST,
+    angularity_2d.ROBUST,
+    roundness.ROBUST,
+    ellipsoid_error.ROBUST,
+    sphericity_3d.ROBUST,
+    angularity_3d.ROBUST,
+)
+METHODS: dict[str, tuple[Measure, ...]] = {"paper": PAPER, "robust": ROBUST}
 
-__all__ = ["METHODS", "PAPER", "Measure", "RockView"]
+__all__ = ["METHODS", "PAPER", "ROBUST", "Measure", "Reading", "Reason"]

@@ -1,9 +1,38 @@
-"""2-D angularity: the spread of the angles that triangles inscribed in the outline have."""
+"""2-D angularity: the spread of the angles that triangles inscribed in the outline have.
+
+Meaning: how unevenly the outline bends: nothing on a circle, much where flat sides meet in
+corners.
+
+Formula: equations 6 and 7. At each point the flattest angle of the triangles whose other corners
+lie 3 to 8 points before and after it; the measure is the standard deviation of those angles over
+the outline. `paper`: over the boundary pixels. `robust`: over 100 points evenly along the
+sub-pixel edge, smoothed by 1.2 % of its length, so that a triangle spans the same share of any
+rock.
+
+Range and unit: from 0. `paper` in degrees; `robust` in radians, a pure number: 0.1 for a pebble,
+0.27 for a sharp polygon of seven corners, 0.39 for a square.
+
+Blind to: the corners' number, as long as the bend is as uneven; `robust` to corners rounded by
+less than 1.2 % of the outline.
+
+Smallest size: `paper` falls with size, since the staircase is what it sees: to a seventh from 30
+to 1000 px on one and the same shape, and a disc scores 12 degrees at a radius of 6 px and 2.4 at
+100 px; above 200 px it no longer ranks shapes (tau 0.98 at 200 px, 0.37 at 1000). `robust`: 8 %
+high at 30 px, 3.5 % at 40 px, 1.0 % at 60 px and 0.5 % at 100 px beside its value at 1000 px; tau
+0.94 at 30 px, 0.97 at 40 px and 1 from 60 px on; with all sizes in one heap 0.91 of 0.92 possible,
+where the paper's has 0.24.
+
+Degenerate: NaN for fewer than 17 points, where the triangles would meet behind the point. `robust`
+refuses rocks that the frame cuts or less than 4 px wide.
+
+Source: Fox et al. (2002), equations 6 and 7 and figure 3.
+"""
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.measures.measure import Measure, RockView
+from rockshape.measures.measure import Measure, Reason
+from rockshape.rock_view import RockView
 
 ALPHA = 2
 BETA = 9
@@ -22,6 +51,8 @@ def angularity_2d_deg(
 
     Rises with angularity. On pixels a circle does not score 0 but about 12, 7.2, 3.7 and 2.4
     degrees at a radius of 6, 20, 50 and 100 pixels, so the measure falls with size.
+    The angle at i is what the chord that ends there and the one that starts there lack of a
+    straight line, so one arccos of the greatest product of their directions does for all 36.
     A triangle with a side of no length is left out. NaN for fewer than 2 beta - 1 points, where the
     corners would meet behind the point.
     Source: Fox et al. (2002), equations 6 and 7 and figure 3.
@@ -29,25 +60,47 @@ def angularity_2d_deg(
     count = len(outline_px)
     if count < 2 * beta - 1:
         return float("nan")
-    offsets = np.arange(alpha + 1, beta)
-    index = np.arange(count)[:, None]
-    # complex numbers for the sides: the angle between two is that of one over the other
-    x, y = outline_px.T
-    points = x + 1j * y
-    before = points[(index - offsets) % count] - points[:, None]
-    after = points[(index + offsets) % count] - points[:, None]
-    product = before[:, :, None] * after.conj()[:, None, :]
-    length = np.abs(before)[:, :, None] * np.abs(after)[:, None, :]
-    cosine = np.divide(product.real, length, out=np.ones_like(length), where=length > 0)
-    flattest = np.arccos(np.clip(cosine, -1, 1)).max(axis=(1, 2))
+    chords = _unit_chords(outline_px, alpha + 1, beta - 1)
+    starting = chords[:, :, beta - 1 :]
+    best = np.full(starting.shape[1:], -1.0)
+    product = np.empty_like(starting)
+    for row, offset in enumerate(range(alpha + 1, beta)):
+        # the chords of this offset that end at each point start so many points before it
+        ending = chords[:, row, beta - 1 - offset : beta - 1 - offset + count]
+        np.multiply(starting, ending[:, None], out=product)
+        np.fmax(best, np.add(product[0], product[1], out=product[0]), out=best)
+    flattest = np.pi - np.arccos(np.minimum(best.max(axis=0), 1.0))
     return float(np.degrees(flattest.std(ddof=1)))
+
+
+def _unit_chords(outline: NDArray[np.float64], nearest: int, farthest: int) -> NDArray[np.float64]:
+    """Directions (2, offsets, farthest + n) from points to those nearest...farthest on.
+
+    Column farthest + i belongs to point i; the columns before it are the last points', so that
+    the chords that end at a point lie before those that start there. NaN for no length.
+    """
+    ring = np.concatenate([outline[-farthest:], outline, outline[:farthest]]).T.copy()
+    columns = len(outline) + farthest
+    chords = np.empty((2, farthest - nearest + 1, columns))
+    for row, offset in enumerate(range(nearest, farthest + 1)):
+        np.subtract(ring[:, offset : offset + columns], ring[:, :columns], out=chords[:, row])
+    length = np.sqrt(chords[0] ** 2 + chords[1] ** 2)
+    with np.errstate(invalid="ignore"):
+        chords /= length
+    return chords
+
+
+def _read_robust(rock: RockView) -> float | Reason:
+    if not rock.resolved:
+        return Reason.TOO_SMALL
+    return float(np.radians(angularity_2d_deg(rock.form_outline_px)))
 
 
 def _evaluate(rock: RockView) -> float:
     return angularity_2d_deg(rock.outline_px)
 
 
-MEASURE = Measure(
+PAPER = Measure(
     column="angularity_2d_deg",
     title="2-D angularity",
     paper_name="2-D angularity",
@@ -55,4 +108,15 @@ MEASURE = Measure(
     needs_range=False,
     fewest=2 * BETA - 1,
     evaluate=_evaluate,
+)
+
+ROBUST = Measure(
+    column="angularity_2d",
+    title="2-D angularity",
+    paper_name="2-D angularity",
+    unit="",
+    needs_range=False,
+    fewest=2 * BETA - 1,
+    evaluate=_read_robust,
+    whole=True,
 )

@@ -1,10 +1,38 @@
-"""Ellipse fitting error: how far the outline lies from its ellipse."""
+"""Ellipse error: how far the outline lies from its ellipse.
+
+Meaning: what keeps the outline from being an ellipse, corners above all: it rises with angularity,
+and with dents and bulges of any kind.
+
+Formula: `paper`: the mean of squared distances along the ray from the ellipse's centre. The text
+says sum, the published values say mean: pixels alone sum to 4 to 39 px², where table 4 has 0.30.
+`robust`: RMS/sqrt(ab), the root of the mean squared orthogonal distance of the outline's form from
+the ellipse fitted to that form, over the root of the half-axes' product. The form is 100 points
+evenly along the sub-pixel edge, smoothed by 1.2 % of its length.
+
+Range and unit: from 0. `paper` in px², growing with the square of the rock's size in pixels;
+`robust` a pure number, 0.02 for a pebble, 0.04 for a sharp polygon of seven corners, 0.11 for a
+square.
+
+Blind to: the axis ratio, as far as the ellipse follows it; `robust` to texture finer than 1.2 % of
+the outline.
+
+Smallest size: `paper`: pixels alone give about 0.07 px². `robust`: 5 % high at 30 px, 2.6 % at 40
+px, 0.6 % at 60 px and 0.3 % at 100 px beside its value at 1000 px; shapes graded by roundness keep
+their order with Kendall's tau 0.95 at 30 px and 1 from 60 px on. With all sizes in one heap tau is
+0.91 of 0.92 possible, where the paper's has 0.19.
+
+Degenerate: NaN where the outline has no ellipse; `robust` refuses rocks that the frame cuts or
+less than 4 px wide.
+
+Source: Fox et al. (2002), section 2, Ellipse Fitting, and figure 2.
+"""
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.ellipse import FEWEST_POINTS, Ellipse
-from rockshape.measures.measure import Measure, RockView
+from rockshape.ellipse import FEWEST_POINTS, Ellipse, fit_ellipse
+from rockshape.measures.measure import Measure, Reason
+from rockshape.rock_view import RockView
 
 
 def ellipse_error_px2(
@@ -23,13 +51,31 @@ def ellipse_error_px2(
     return float(squares.sum() if total else squares.mean())
 
 
+def ellipse_error(ellipse: Ellipse, outline: NDArray[np.float64]) -> float:
+    """RMS orthogonal distance of the outline, (n, 2), from its ellipse over sqrt(ab).
+
+    A pure number, free of the outline's unit and scale. NaN for an empty outline.
+    """
+    if len(outline) == 0:
+        return float("nan")
+    squares = ellipse.orthogonal_distance(outline) ** 2
+    return float(np.sqrt(squares.mean() / (ellipse.major * ellipse.minor)))
+
+
+def _read_robust(rock: RockView) -> float | Reason:
+    if not rock.resolved:
+        return Reason.TOO_SMALL
+    ellipse = fit_ellipse(rock.form_outline_px)
+    return Reason.DEGENERATE if ellipse is None else ellipse_error(ellipse, rock.form_outline_px)
+
+
 def _evaluate(rock: RockView) -> float:
     return (
         float("nan") if rock.ellipse is None else ellipse_error_px2(rock.ellipse, rock.outline_px)
     )
 
 
-MEASURE = Measure(
+PAPER = Measure(
     column="ellipse_error_px2",
     title="ellipse error",
     paper_name="ellipse fitting error",
@@ -37,4 +83,15 @@ MEASURE = Measure(
     needs_range=False,
     fewest=FEWEST_POINTS,
     evaluate=_evaluate,
+)
+
+ROBUST = Measure(
+    column="ellipse_error",
+    title="ellipse error",
+    paper_name="ellipse fitting error",
+    unit="",
+    needs_range=False,
+    fewest=FEWEST_POINTS,
+    evaluate=_read_robust,
+    whole=True,
 )

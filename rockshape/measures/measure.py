@@ -1,35 +1,65 @@
-"""What a measure is: one number for one rock, with a name and a unit."""
+"""What a measure is: one number for one rock, with a name and a unit, or the reason for none."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from enum import StrEnum
 
 import numpy as np
-from numpy.typing import NDArray
 
-from rockshape.ellipse import Ellipse
-from rockshape.ellipsoid import EllipsoidFit
-from rockshape.surface import Surface
+from rockshape.rock_view import RockView
 
 
-@dataclass(frozen=True, eq=False)
-class RockView:
-    """One rock as one image shows it: what every measure is computed from."""
+class Reason(StrEnum):
+    """Why a rock has no value of a measure."""
 
-    outline_px: NDArray[np.float64]  # (n, 2) as (x, y), clockwise
-    points_m: NDArray[np.float64]  # (k, 3) in the camera frame, empty without range
-    ellipse: Ellipse | None  # None where the outline does not determine it
-    ellipsoid: EllipsoidFit | None  # None where the points do not
-    surface: Surface | None  # likewise
+    NO_RANGE = "no range"
+    TOO_SMALL = "too small"
+    TRUNCATED = "truncated"
+    DEGENERATE = "degenerate"
+    NOT_RESOLVABLE = "not resolvable"
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What a measure says of one rock: a finite value, or NaN and the reason for it."""
+
+    value: float
+    reason: Reason | None = None
 
 
 @dataclass(frozen=True)
 class Measure:
-    """A column of the table and the function that fills it; NaN where it cannot be measured."""
+    """A column of the table and the function that fills it.
+
+    The function returns NaN, or the Reason if it knows one, for a rock it cannot measure.
+    """
 
     column: str
     title: str  # the field's term
-    paper_name: str  # what Fox et al. (2002) call it
+    paper_name: str  # what Fox et al. (2002) call it; empty where they have no such measure
     unit: str  # empty for a pure number
     needs_range: bool
     fewest: int  # outline points, or range points where it needs range, below which it is NaN
-    evaluate: Callable[[RockView], float]
+    evaluate: Callable[[RockView], float | Reason]
+    whole: bool = False  # refuses a rock that the frame has cut
+
+    def read(self, rock: RockView) -> Reading:
+        """Measure a rock.
+
+        NaN without a reason of its own is `no range` where range is needed and no point has it,
+        `too small` under the fewest points, and `degenerate` else.
+        """
+        if self.whole and rock.truncated:
+            return Reading(float("nan"), Reason.TRUNCATED)
+        found = self.evaluate(rock)
+        if isinstance(found, Reason):
+            return Reading(float("nan"), found)
+        if np.isfinite(found):
+            return Reading(float(found))
+        return Reading(float("nan"), self._lack(rock))
+
+    def _lack(self, rock: RockView) -> Reason:
+        count = len(rock.points_m if self.needs_range else rock.outline_px)
+        if self.needs_range and count == 0:
+            return Reason.NO_RANGE
+        return Reason.TOO_SMALL if count < self.fewest else Reason.DEGENERATE

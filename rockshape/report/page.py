@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.draw import overlay
+from rockshape.measurement import Measurement
 from rockshape.measures import METHODS
-from rockshape.pipeline import Measurement
-from rockshape.table import AXES, to_frame
+from rockshape.table import AXES, DESCRIPTORS, to_frame
 
 DIGITS = 4
 
@@ -22,12 +22,14 @@ def render_page(title: str, image: NDArray[np.float32], measurement: Measurement
     jpeg = cv2.imencode(".jpg", picture, [cv2.IMWRITE_JPEG_QUALITY, 88])[1]
     measures = METHODS[measurement.method]
     frame = to_frame(measurement)
-    numbers = ["area_px", *AXES, *(measure.column for measure in measures)]
+    described = DESCRIPTORS.values() if measurement.described else ()
+    numbers = ["area_px", *AXES, *(measure.column for measure in measures), *described]
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
     environment.filters["number"] = lambda value: "" if np.isnan(value) else f"{value:.{DIGITS}g}"
     template = (files("rockshape.report") / "page.html").read_text(encoding="utf-8")
     return environment.from_string(template).render(
         title=title,
+        method=measurement.method,
         picture=base64.b64encode(jpeg.tobytes()).decode(),
         ground=measurement.ground,
         measures=measures,

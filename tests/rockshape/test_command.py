@@ -13,9 +13,10 @@ import tifffile
 
 from rockshape.cli import main
 from rockshape.io import read_image, read_labels
+from rockshape.measures import METHODS
 from rockshape.observation import Observation
 from rockshape.pipeline import measure
-from rockshape.table import to_frame
+from rockshape.table import DESCRIPTORS, columns, to_frame
 from tests.paths import GRAINS_IMAGE, GRAINS_LABELS, MARS_IMAGE, MARS_RANGE
 
 
@@ -100,6 +101,21 @@ def test_the_report_is_one_page_with_every_rock(tmp_path: Path) -> None:
     assert text.count("<tr>") == 1 + 124
     assert "data:image/jpeg;base64," in text
     assert "http" not in text
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_the_report_shows_the_columns_of_its_method(tmp_path: Path, method: str) -> None:
+    page, table = tmp_path / "page.html", tmp_path / "t.csv"
+    arguments = ["measure", str(MARS_IMAGE), "--range", str(MARS_RANGE), "--method", method]
+    outputs = ["--out", str(table), "--report", str(page), "--descriptors"]
+    assert main([*arguments, *outputs]) == 0
+    text = page.read_text()
+    written = pd.read_csv(table)
+    assert list(written.columns) == list(columns(method, descriptors=True))
+    for column in (*(entry.column for entry in METHODS[method]), *DESCRIPTORS.values()):
+        assert text.count(f"<th>{column}</th>") == 1
+    assert f"method <code>{method}</code>" in text
+    assert "“”" not in text  # a measure that the paper has not has no name there
 
 
 def test_labels_read_back_give_the_same_flat_measures(tmp_path: Path) -> None:

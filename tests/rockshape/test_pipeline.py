@@ -1,14 +1,19 @@
+import dataclasses
+
 import numpy as np
+import pandas as pd
 import pytest
 from scipy.spatial.transform import Rotation
 
+from rockshape.descriptors import Descriptors
 from rockshape.draw import overlay
 from rockshape.errors import InputError
 from rockshape.io import read_image, read_labels, read_range
+from rockshape.measurement import Measurement
 from rockshape.measures import METHODS, PAPER
 from rockshape.observation import Observation
-from rockshape.pipeline import Measurement, measure
-from rockshape.table import columns, to_frame
+from rockshape.pipeline import measure
+from rockshape.table import DESCRIPTORS, columns, to_frame
 from tests import solids
 from tests.paths import GRAINS_IMAGE, GRAINS_LABELS, MARS_IMAGE, MARS_RANGE
 
@@ -128,6 +133,17 @@ def test_nothing_to_find_rocks_by_finds_none() -> None:
     assert list(frame.columns) == list(columns("paper"))
 
 
+def test_how_rocks_were_found_is_told_on_request(yard: Observation) -> None:
+    measured = measure(yard)
+    frame = to_frame(measured, flags=True)
+    assert list(frame.columns) == list(columns("paper", flags=True))
+    assert frame["branch"].tolist() == ["range", "range"]
+    assert frame["outline_sd_px"].isna().all()  # the border of the rock's pixels
+    given = to_frame(measure(yard, labels=measured.labels), flags=True)
+    assert given["branch"].tolist() == ["labels", "labels"]
+    assert given["flags"].tolist() == ["", ""]
+
+
 def test_rocks_cut_by_the_frame_and_hidden_ones_are_told() -> None:
     shape = (100, 200)
     labels = np.zeros(shape, dtype=np.int32)
@@ -165,6 +181,27 @@ def test_the_overlay_shows_every_rock(yard: Observation) -> None:
         x, y = rock.outline_px[0]
         here = picture[round(scale * (y + 0.5)), round(scale * (x + 0.5))]
         assert here.max() > 100  # the image itself is black
+
+
+def test_descriptors_add_columns_at_the_end_and_change_no_other() -> None:
+    labels = solids.disc(30, shift=(0.31, -0.17)).astype(np.int32)
+    observation = Observation(image=np.zeros(labels.shape, dtype=np.float32))
+    plain = to_frame(measure(observation, labels=labels))
+    described = to_frame(measure(observation, labels=labels, descriptors=True))
+    assert list(plain.columns) == list(columns("paper"))
+    assert list(described.columns) == [*plain.columns, *DESCRIPTORS.values()]
+    pd.testing.assert_frame_equal(described[plain.columns], plain)
+    row = described.iloc[0]
+    # a disc of pixels has its area within its perimeter of half-pixel doubt, shared by chance
+    assert row["outline_area_px2"] == pytest.approx(np.pi * 30**2, rel=0.01)
+    assert row["feret_max_px"] == pytest.approx(60, abs=1)
+    assert row["circularity"] == pytest.approx(1, abs=0.02)  # 0.8 % of area, twice 0.4 % of length
+    empty = measure(observation, labels=0 * labels, descriptors=True)
+    assert list(to_frame(empty).columns) == list(described.columns)
+
+
+def test_every_descriptor_has_a_column() -> None:
+    assert list(DESCRIPTORS) == [field.name for field in dataclasses.fields(Descriptors)]
 
 
 def test_every_method_names_each_column_once() -> None:

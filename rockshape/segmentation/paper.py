@@ -16,6 +16,7 @@ from skimage.measure import label
 from skimage.morphology import reconstruction
 from skimage.segmentation import watershed
 
+from rockshape.segmentation.numbers import renumber
 from rockshape.visibility import measured_frame
 
 LEVELS_PER_SIGMA = 4  # of the ground's own scatter
@@ -75,7 +76,7 @@ def classify(levels: NDArray[np.int32], known: NDArray[np.bool_]) -> NDArray[np.
     return np.asarray(kinds[regions])
 
 
-def segment(height_m: NDArray[np.float64], *, sigma_m: float) -> NDArray[np.int32]:
+def segment_heights(height_m: NDArray[np.float64], *, sigma_m: float) -> NDArray[np.int32]:
     """Label image (rows, cols) of the rocks, numbered from 1 in reading order; 0 is the ground.
 
     height_m is (rows, cols) above the ground plane, NaN where nothing was measured; sigma_m is the
@@ -96,7 +97,7 @@ def segment(height_m: NDArray[np.float64], *, sigma_m: float) -> NDArray[np.int3
     rocks = watershed(-levels, markers=tops, mask=slopes | (tops > 0), connectivity=2)
     rocks = _fill_dents(np.asarray(rocks, dtype=np.int32))
     small = np.flatnonzero(np.bincount(rocks.ravel()) < FEWEST_PIXELS)
-    return _number(rocks, dropped=np.union1d(small, _on_border(tops, known)))
+    return renumber(rocks, dropped=np.union1d(small, _on_border(tops, known)))
 
 
 def _find_tops(levels: NDArray[np.int32], known: NDArray[np.bool_]) -> NDArray[np.int32]:
@@ -129,13 +130,3 @@ def _fill_dents(rocks: NDArray[np.int32]) -> NDArray[np.int32]:
             hole = ndi.binary_fill_holes(rocks[window] == number) & (part == 0)
             part[hole] = number
     return filled
-
-
-def _number(rocks: NDArray[np.int32], *, dropped: NDArray[np.integer]) -> NDArray[np.int32]:
-    """Number the rocks from 1 in reading order, without those dropped and without gaps."""
-    numbers, first = np.unique(rocks, return_index=True)
-    numbers = numbers[np.argsort(first)]
-    numbers = numbers[(numbers > 0) & ~np.isin(numbers, dropped)]
-    renumber = np.zeros(int(rocks.max()) + 1, dtype=np.int32)
-    renumber[numbers] = np.arange(1, len(numbers) + 1)
-    return renumber[rocks]

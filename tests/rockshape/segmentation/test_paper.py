@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from rockshape.segmentation import Kind, classify, segment
+from rockshape.segmentation.paper import Kind, classify, segment_heights
 
 
 def dome(shape: tuple[int, int], row: float, col: float, radius: float, top: float) -> np.ndarray:
@@ -33,7 +33,7 @@ def test_what_is_not_known_is_no_neighbour() -> None:
 
 def test_two_domes_on_the_ground_are_two_rocks() -> None:
     heights = dome((80, 120), 40, 30, 20, 0.2) + dome((80, 120), 40, 85, 25, 0.3)
-    labels = segment(heights, sigma_m=0.001)
+    labels = segment_heights(heights, sigma_m=0.001)
     assert np.unique(labels).tolist() == [0, 1, 2]
     for number, col in ((2, 30), (1, 85)):
         assert labels[40, col] == number
@@ -43,7 +43,7 @@ def test_two_domes_on_the_ground_are_two_rocks() -> None:
 
 def test_touching_domes_part_in_the_valley() -> None:
     heights = np.maximum(dome((80, 120), 40, 40, 25, 0.3), dome((80, 120), 40, 80, 25, 0.3))
-    labels = segment(heights, sigma_m=0.001)
+    labels = segment_heights(heights, sigma_m=0.001)
     assert labels.max() == 2
     assert set(np.unique(labels[:, :57])) == {0, 1}
     assert set(np.unique(labels[:, 64:])) == {0, 2}
@@ -51,36 +51,36 @@ def test_touching_domes_part_in_the_valley() -> None:
 
 def test_a_dent_belongs_to_its_rock() -> None:
     heights = dome((80, 80), 40, 40, 30, 0.3) - 3 * dome((80, 80), 40, 40, 6, 0.03)
-    labels = segment(heights, sigma_m=0.001)
+    labels = segment_heights(heights, sigma_m=0.001)
     assert labels.max() == 1
     assert labels[40, 40] == 1
 
 
 def test_bumps_below_two_levels_are_no_tops(rng: np.random.Generator) -> None:
     heights = dome((80, 80), 40, 40, 30, 0.3) + rng.uniform(0, 0.002, (80, 80))
-    assert segment(heights, sigma_m=0.001).max() == 1
+    assert segment_heights(heights, sigma_m=0.001).max() == 1
 
 
 def test_flat_ground_has_no_rocks(rng: np.random.Generator) -> None:
-    assert segment(rng.normal(scale=0.001, size=(60, 60)), sigma_m=0.001).max() == 0
-    assert segment(np.full((60, 60), np.nan), sigma_m=0.0).max() == 0
+    assert segment_heights(rng.normal(scale=0.001, size=(60, 60)), sigma_m=0.001).max() == 0
+    assert segment_heights(np.full((60, 60), np.nan), sigma_m=0.0).max() == 0
 
 
 def test_a_rise_whose_top_is_cut_by_the_frame_is_no_rock() -> None:
     heights = dome((80, 80), 0, 40, 30, 0.3)
-    assert segment(heights, sigma_m=0.001).max() == 0
-    assert segment(np.roll(heights, 20, axis=0), sigma_m=0.001).max() == 1
+    assert segment_heights(heights, sigma_m=0.001).max() == 0
+    assert segment_heights(np.roll(heights, 20, axis=0), sigma_m=0.001).max() == 1
 
 
 def test_small_specks_are_dropped() -> None:
-    assert segment(dome((40, 40), 20, 20, 3, 0.1), sigma_m=0.001).max() == 0
-    assert segment(dome((40, 40), 20, 20, 5, 0.1), sigma_m=0.001).max() == 1
+    assert segment_heights(dome((40, 40), 20, 20, 3, 0.1), sigma_m=0.001).max() == 0
+    assert segment_heights(dome((40, 40), 20, 20, 5, 0.1), sigma_m=0.001).max() == 1
 
 
 @pytest.mark.parametrize("scale", [1.0, 0.1])
 def test_rocks_are_numbered_in_reading_order(scale: float) -> None:
     heights = dome((90, 90), 20, 60, 15, 0.2) + dome((90, 90), 60, 20, 15, 0.4)
-    labels = segment(scale * heights, sigma_m=0.001)
+    labels = segment_heights(scale * heights, sigma_m=0.001)
     assert labels[20, 60] == 1
     assert labels[60, 20] == 2
 
@@ -90,4 +90,4 @@ def test_peaks_of_equal_height_on_one_ridge_are_one_top() -> None:
     ridge = np.full((80, 120), np.inf)
     ridge[:, ::2] = 0.2
     ridge[:, 1::2] = 0.199  # less than a level below, but in another one
-    assert segment(np.minimum(heights, ridge), sigma_m=0.001).max() == 1
+    assert segment_heights(np.minimum(heights, ridge), sigma_m=0.001).max() == 1

@@ -1,4 +1,4 @@
-"""The ground plane under the rocks."""
+"""The ground plane by three-sigma rejection, as published."""
 
 from dataclasses import dataclass
 
@@ -36,23 +36,36 @@ def fit_plane(points_m: NDArray[np.float64]) -> Plane | None:
     The rejection takes rocks for ground once they cover much of the frame: on scenes of known
     ground the plane's bias grew from 0.03 cm at 19 % cover to 6.75 cm at 45 %.
     """
-    points = points_m[np.isfinite(points_m).all(axis=-1)]
-    keep = np.ones(len(points), dtype=bool)
+    x, y, z = np.moveaxis(points_m, -1, 0)
+    known = np.isfinite(x) & np.isfinite(y) & np.isfinite(z)
+    points = np.stack([x[known], y[known], z[known]])
+    if points.shape[1] < 3:
+        return None
+    middle = points.mean(axis=1)
+    points -= middle[:, None]
+    keep = np.ones(points.shape[1], dtype=bool)
+    count, total, squares = points.shape[1], np.zeros(3), points @ points.T
     for _ in range(MOST_ROUNDS):
-        kept = points[keep]
-        if len(kept) < 3:
-            return None
-        centre = kept.mean(axis=0)
-        spread, axes = np.linalg.eigh(np.cov(kept.T, bias=True))
+        centre = total / count
+        spread, axes = np.linalg.eigh(squares / count - np.outer(centre, centre))
         if spread[1] <= 1e-12 * spread[2]:
             return None
-        normal = axes[:, 0] if axes[:, 0] @ centre < 0 else -axes[:, 0]
-        height = (points - centre) @ normal
-        sigma = float(height[keep].std())
+        normal = axes[:, 0] if axes[:, 0] @ (middle + centre) < 0 else -axes[:, 0]
+        height = normal @ points - normal @ centre
+        sigma = float(np.sqrt(np.mean(np.square(height[keep]))))
         now = np.abs(height) <= REJECT_SIGMA * sigma
-        if now.sum() < 3 or np.array_equal(now, keep):
+        changed = np.flatnonzero(now != keep)
+        left = count + 2 * int(now[changed].sum()) - len(changed)
+        if left < 3 or len(changed) == 0:
             break
+        # the sums of the kept points change by the few that came and went
+        moved, sign = points[:, changed], np.where(now[changed], 1.0, -1.0)
+        count, total = left, total + moved @ sign
+        squares = squares + (moved * sign) @ moved.T
         keep = now
     return Plane(
-        normal=normal, offset_m=float(normal @ centre), sigma_m=sigma, accepted=float(keep.mean())
+        normal=normal,
+        offset_m=float(normal @ (middle + centre)),
+        sigma_m=sigma,
+        accepted=float(keep.mean()),
     )

@@ -1,0 +1,18 @@
+"""Ellipsoids of the points seen on a rock: by range alone, and held by silhouette and ground."""
+
+from rockshape.ellipsoid.distance import hausdorff_m, orthogonal_distance_m
+from rockshape.ellipsoid.fit import FEWEST_POINTS, EllipsoidFit, fit_ellipsoid
+from rockshape.ellipsoid.held import HeldEllipsoid, Resting, fit_held_ellipsoid
+from rockshape.ellipsoid.solid import Ellipsoid
+
+__all__ = [
+    "FEWEST_POINTS",
+    "Ellipsoid",
+    "EllipsoidFit",
+    "HeldEllipsoid",
+    "Resting",
+    "fit_ellipsoid",
+    "fit_held_ellipsoid",
+    "hausdorff_m",
+    "orthogonal_distance_m",
+]

@@ -1,0 +1,69 @@
+"""The ground of an observation: plane, noise and, where it undulates, a smooth surface."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rockshape.ground.noise import Noise, estimate_noise
+from rockshape.ground.plane import Plane
+from rockshape.ground.robust import fit_inverse_depth
+from rockshape.ground.smooth import Swell, fit_swell
+
+SAMPLES = 65_536  # points the ground is fitted to: one for each 4 x 4 pixels of a large frame
+EVERY = 3  # of them for the plane, which a few thousand determine
+FEWEST = 50
+
+
+@dataclass(frozen=True, eq=False)
+class Ground:
+    """The ground as a plane, what undulates about it, and how far its heights scatter."""
+
+    plane: Plane
+    noise: Noise
+    swell: Swell | None = None  # None: the plane is all there is
+
+    def height_m(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Heights (...) above the ground of points (..., 3) in the camera frame."""
+        height = self.plane.height_m(points_m)
+        return height if self.swell is None else height - self.swell.height_m(points_m)
+
+    def slant(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+        """|n . r| of points (..., 3), r the ray of z-depth 1: height per z-depth along the ray."""
+        return np.abs((points_m @ self.plane.normal) / points_m[..., 2])
+
+
+def fit_ground(points_m: NDArray[np.float64], *, pixel_rad: float) -> Ground | None:
+    """The ground under rocks, for points (rows, cols, 3) in the camera frame, NaN where unknown.
+
+    The plane is fitted in inverse depth (see `robust`); the noise is what points below it scatter
+    by (see `noise`); where the ground undulates by more than that, a smooth surface is laid over
+    the plane (see `smooth`). pixel_rad is a pixel's angle. None where too few points lie in front
+    of the camera or no plane is determined.
+    """
+    step = max(1, int(np.sqrt(points_m.shape[0] * points_m.shape[1] / SAMPLES)))
+    points = points_m[step // 2 :: step, step // 2 :: step].reshape(-1, 3)
+    points = points[np.isfinite(points).all(axis=1) & (points[:, 2] > 0)]
+    if len(points) < FEWEST:
+        return None
+    rays = points / points[:, 2:]
+    found = fit_inverse_depth(rays[::EVERY], 1 / points[::EVERY, 2])
+    if found is None:
+        return None
+    length = float(np.linalg.norm(found.coefficients))
+    if length == 0:
+        return None
+    # the camera, at the origin, is above: its height -offset is positive
+    normal, offset_m = -found.coefficients / length, -1 / length
+    height = points @ normal - offset_m
+    slant = np.abs(rays @ normal)
+    noise = estimate_noise(height, points[:, 2], slant, pixel_rad=pixel_rad)
+    swell = fit_swell(points, normal=normal, height_m=height, noise=noise)
+    if swell is not None:
+        height = height - swell.height_m(points)
+        noise = estimate_noise(height, points[:, 2], slant, pixel_rad=pixel_rad)
+        noise = replace(noise, rough_m=float(np.hypot(noise.rough_m, swell.misfit_m)))
+    near = np.abs(height) <= 3 * noise.height_m(points[:, 2], slant)
+    sigma_m = float(height[near].std()) if near.any() else float("nan")
+    plane = Plane(normal=normal, offset_m=offset_m, sigma_m=sigma_m, accepted=found.accepted)
+    return Ground(plane=plane, noise=noise, swell=swell)

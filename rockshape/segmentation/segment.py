@@ -1,0 +1,116 @@
+"""From an observation to labels: one call for either variant."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rockshape.ground import Ground, Plane, fit_ground, fit_plane
+from rockshape.observation import Observation
+from rockshape.segmentation.edges import snapped, texture_of
+from rockshape.segmentation.flags import flag
+from rockshape.segmentation.found import Branch, Found, Segmentation, Variant
+from rockshape.segmentation.image import find_by_image
+from rockshape.segmentation.numbers import renumber
+from rockshape.segmentation.paper import segment_heights
+from rockshape.segmentation.relief import Relief, relief_of, standing
+from rockshape.segmentation.split import split
+from rockshape.visibility import measured_frame
+
+Labels = NDArray[np.int32]
+
+
+def segment(observation: Observation, *, variant: Variant) -> Segmentation:
+    """Find the rocks of an observation.
+
+    `paper`: the 3-sigma plane and the tops, sides and bottoms of the heights above it; without
+    range no rock is found. `robust`: the ground that holds among rocks, regions that stand on it
+    in units of the noise, cut at valleys and jumps of depth, then what the image alone shows, and
+    all outlines moved to the image's edges where they are surer than the range's.
+    """
+    if variant == "paper":
+        return _by_paper(observation)
+    return _by_range_and_image(observation)
+
+
+def ground_under(observation: Observation, *, variant: Variant) -> Plane | None:
+    """The plane of the ground alone, for rocks that others have found; None without range."""
+    if variant == "paper":
+        return None if observation.points_m is None else fit_plane(observation.points_m)
+    ground, _ = _stand(observation)
+    return None if ground is None else ground.plane
+
+
+def _by_paper(observation: Observation) -> Segmentation:
+    points_m = observation.points_m
+    ground = None if points_m is None else fit_plane(points_m)
+    if ground is None or points_m is None:
+        return _nothing(observation)
+    height_m = ground.height_m(points_m)
+    labels = segment_heights(height_m, sigma_m=ground.sigma_m)
+    found = tuple(Found(number, "range") for number in range(1, int(labels.max()) + 1))
+    return Segmentation(labels, ground, measured_frame(np.isfinite(height_m)), found)
+
+
+def _nothing(observation: Observation) -> Segmentation:
+    return Segmentation(
+        np.zeros(observation.image.shape, dtype=np.int32), None, _whole(observation), ()
+    )
+
+
+def _whole(observation: Observation) -> tuple[slice, slice]:
+    rows, cols = observation.image.shape
+    return slice(0, rows), slice(0, cols)
+
+
+def _by_range_and_image(observation: Observation) -> Segmentation:
+    ground, relief = _stand(observation)
+    frame = _whole(observation)
+    if ground is None or relief is None:
+        by_range = np.zeros(observation.image.shape, dtype=np.int32)
+    else:
+        by_range = find_by_range(relief, ground)
+        frame = measured_frame(relief.known)
+    labels = find_by_image(observation.image, relief, by_range)
+    from_range = int(by_range.max(initial=0))
+    texture = texture_of(observation.image)
+    outlines, moved = snapped(observation.image, labels, relief, texture=texture)
+    numbered = renumber(moved, dropped=np.empty(0, dtype=np.intp))
+    old = _old_numbers(moved, numbered)
+    found = []
+    for number, before in enumerate(old, start=1):
+        branch: Branch = "range" if before <= from_range else "image"
+        found.append(Found(number, branch, (), outlines.get(before)))
+    flags = flag(observation.image, numbered, relief, frame=frame)
+    told = tuple(Found(one.number, one.branch, flags[one.number], one.outline) for one in found)
+    return Segmentation(numbered, None if ground is None else ground.plane, frame, told)
+
+
+def _stand(observation: Observation) -> tuple[Ground | None, Relief | None]:
+    if observation.points_m is None:
+        return None, None
+    ground = fit_ground(observation.points_m, pixel_rad=pixel_rad(observation))
+    return ground, None if ground is None else relief_of(observation.points_m, ground)
+
+
+def find_by_range(relief: Relief, ground: Ground) -> Labels:
+    """Labels (rows, cols) from 1 of the rocks that stand on the ground."""
+    labels = split(
+        relief,
+        standing(relief),
+        depth_sigma_m=ground.noise.depth_m(relief.depth_m),
+    )
+    return renumber(labels, dropped=np.empty(0, dtype=np.intp))
+
+
+def pixel_rad(observation: Observation) -> float:
+    """A pixel's angle in the middle of the frame; without a camera, of a field of one radian."""
+    if observation.camera is None:
+        return 1.0 / max(int(side) for side in observation.image.shape)
+    return 1.0 / observation.camera.fx
+
+
+def _old_numbers(before: Labels, after: Labels) -> list[int]:
+    """For each number from 1 of the labels after, its number before."""
+    numbers, first = np.unique(after, return_index=True)
+    return [
+        int(before.ravel()[place]) for number, place in zip(numbers, first, strict=True) if number
+    ]

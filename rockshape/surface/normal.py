@@ -1,0 +1,162 @@
+"""The normal equations of a B-spline surface in banded form."""
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import LinAlgError, cho_solve_banded, cholesky_banded
+
+from rockshape.surface.basis import Basis, Knots, derivative_net, overlaps
+
+LEAST_PIVOT = 1e-13  # of the largest: below it rounding decides what the data do not
+
+
+@dataclass(frozen=True)
+class Net:
+    """The polygon net's knots along both parameters; vertex (i, j) is number i * w.count + j."""
+
+    u: Knots
+    w: Knots
+
+    @property
+    def size(self) -> int:
+        """Number of vertices."""
+        return self.u.count * self.w.count
+
+    @property
+    def band(self) -> int:
+        """How far apart two vertices' numbers may be that share a datum."""
+        return (self.u.order - 1) * self.w.count + self.w.order - 1
+
+
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """The matrix C of equation 13 without its zeros: the products of the basis functions.
+
+    Row i has products[i] at the vertices first[i] + offsets.
+    """
+
+    net: Net
+    products: NDArray[np.float64]  # (n, orders' product)
+    first: NDArray[np.intp]  # (n,), number of the first vertex
+    offsets: NDArray[np.intp]  # (orders' product,)
+
+    def at(self, vertices: NDArray[np.float64]) -> NDArray[np.float64]:
+        """C B, (n,) or (n, k) for vertices (size,) or (size, k)."""
+        if vertices.ndim == 1:
+            here = vertices[self.places]
+            return np.asarray(np.einsum("ij,ij->i", self.products, here))
+        return np.column_stack([self.at(column) for column in vertices.T])
+
+    @cached_property
+    def places(self) -> NDArray[np.intp]:
+        """Numbers (n, orders' product) of the vertices that each datum touches."""
+        return self.first[:, None] + self.offsets
+
+
+def rows(net: Net, along_u: Basis, along_w: Basis) -> Rows:
+    """The rows of C for data with these bases along u and w."""
+    products = along_u.values[:, None, :] * along_w.values[None, :, :]
+    wide = np.arange(net.u.order)[:, None] * net.w.count + np.arange(net.w.order)
+    return Rows(
+        net=net,
+        products=np.ascontiguousarray(products.reshape(wide.size, -1).T),
+        first=along_u.span * net.w.count + along_w.span,
+        offsets=wide.ravel(),
+    )
+
+
+def normal_equations(
+    data: Rows, heights: NDArray[np.float64], weights: NDArray[np.float64] | None = None
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """C^T W C as lower bands (band + 1, size), and C^T W D (size,) or (size, k).
+
+    Data of one net cell touch the same vertices, so that each cell adds one dense block of the
+    orders' product squared: the work is n times that, and no matrix of data by vertices is made.
+    heights is (n,) or (n, k).
+    """
+    net = data.net
+    order = np.argsort(data.first, kind="stable")
+    first, products, values = data.first[order], data.products[order], heights[order]
+    heavy = products if weights is None else products * weights[order][:, None]
+    starts = (
+        np.flatnonzero(np.r_[True, first[1:] != first[:-1]]) if len(first) else np.empty(0, int)
+    )
+    ends = np.r_[starts[1:], len(first)].astype(int)
+    wide = len(data.offsets)
+    blocks = np.empty((len(starts), wide, wide))
+    sides = np.empty((len(starts), wide, *values.shape[1:]))
+    for k, (start, end) in enumerate(zip(starts, ends, strict=True)):
+        part = heavy[start:end].T
+        blocks[k] = part @ products[start:end]
+        sides[k] = part @ values[start:end]
+    place = first[starts][:, None] + data.offsets
+    row, column = np.broadcast_arrays(place[:, :, None], place[:, None, :])
+    lower = row >= column
+    flat = (row[lower] - column[lower]) * net.size + column[lower]
+    bands = np.bincount(flat, blocks[lower], (net.band + 1) * net.size).astype(np.float64)
+    side = np.zeros((net.size, *values.shape[1:]))
+    np.add.at(side, place, sides)
+    return bands.reshape(net.band + 1, net.size), side
+
+
+def to_bands(net: Net, dense: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The lower bands (band + 1, size) of a symmetric matrix (size, size) that fits in them."""
+    bands = np.zeros((net.band + 1, net.size))
+    for below in range(net.band + 1):
+        bands[below, : net.size - below] = np.diagonal(dense, -below)
+    return bands
+
+
+def bending(net: Net, u_size: float, w_size: float) -> NDArray[np.float64]:
+    """Lower bands of the mean of Q_uu² + 2 Q_uw² + Q_ww² over the net's rectangle, exact.
+
+    The rectangle is u_size by w_size: with metres the mean is in 1/m² for heights in metres.
+    """
+    along_u, mixed, along_w = _unit_bending(net)
+    return along_u / u_size**4 + mixed / (u_size * w_size) ** 2 + along_w / w_size**4
+
+
+@lru_cache(maxsize=8)
+def _unit_bending(net: Net) -> tuple[NDArray[np.float64], ...]:
+    """Lower bands of the integrals of Q_uu², 2 Q_uw² and Q_ww² over the unit square."""
+    straight, across = ([overlaps(knots, k) for k in range(3)] for knots in (net.u, net.w))
+    parts = [
+        to_bands(net, np.asarray(factor * np.kron(straight[k], across[2 - k]), dtype=np.float64))
+        for k, factor in ((2, 1.0), (1, 2.0), (0, 1.0))
+    ]
+    for part in parts:
+        part.setflags(write=False)
+    return tuple(parts)
+
+
+@lru_cache(maxsize=8)
+def vertex_bending(net: Net) -> NDArray[np.float64]:
+    """Lower bands of the sum of squares of the second derivatives' vertices along u and w."""
+    along_u, along_w = derivative_net(net.u, 2), derivative_net(net.w, 2)
+    dense = np.kron(along_u.T @ along_u, np.eye(net.w.count))
+    bands = to_bands(net, dense + np.kron(np.eye(net.u.count), along_w.T @ along_w))
+    bands.setflags(write=False)
+    return bands
+
+
+@dataclass(frozen=True, eq=False)
+class Factor:
+    """The Cholesky factor of banded normal equations."""
+
+    lower: NDArray[np.float64]  # (band + 1, size)
+
+    def solve(self, side: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The vertices (size,) or (size, k) for right-hand sides of that shape."""
+        return np.asarray(cho_solve_banded((self.lower, True), side, check_finite=False))
+
+
+def factorise(bands: NDArray[np.float64]) -> Factor | None:
+    """The factor, or None where the data and the penalty leave a vertex undecided."""
+    try:
+        lower = cholesky_banded(bands, lower=True, check_finite=False)
+    except LinAlgError:
+        return None
+    pivots = lower[0] ** 2
+    return Factor(lower) if pivots.min() > LEAST_PIVOT * bands[0].max() else None

@@ -1,0 +1,90 @@
+"""Rocks painted on textured ground: what the image alone tells."""
+
+import cv2
+import numpy as np
+
+from rockshape.observation import Observation
+from rockshape.segmentation import segment
+from rockshape.segmentation.lightness import read_lightness
+from rockshape.segmentation.snap import paint, snap
+from tests import solids
+
+
+def textured(shape: tuple[int, int], rng: np.random.Generator) -> np.ndarray:
+    """Ground of brightness 0.6 whose texture has 5 % contrast."""
+    grain = cv2.GaussianBlur(rng.standard_normal(shape), (0, 0), 1.0)
+    return 0.6 * (1 + 0.05 * grain / grain.std())
+
+
+def rock_with_shadow(rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Image, the rock's mask and its shadow's: lit from the left, half of it in its own shade."""
+    image = textured((240, 320), rng)
+    y, x = np.mgrid[:240, :320]
+    rock = ((x - 150) / 34) ** 2 + ((y - 120) / 26) ** 2 <= 1
+    shadow = (((x - 190) / 34) ** 2 + ((y - 130) / 18) ** 2 <= 1) & ~rock
+    turn = np.clip((150 - x) / 34, -1, 1)
+    image = np.where(rock, 0.6 * (0.11 + 0.7 * np.maximum(turn + 0.4, 0)), image)
+    image = np.where(shadow, 0.3 * image, image)
+    return np.clip(image, 0, 1).astype(np.float32), rock, shadow
+
+
+def test_ground_in_shadow_is_told_from_rock(rng: np.random.Generator) -> None:
+    image, rock, shadow = rock_with_shadow(rng)
+    lightness = read_lightness(image)
+    assert lightness.cast[shadow].mean() > 0.8
+    # the rock itself passes through that brightness from its lit to its shaded side
+    assert lightness.cast[rock].mean() < 0.2
+    assert lightness.unlike[~rock & ~shadow].mean() < 0.02
+
+
+def test_a_rock_is_found_without_its_shadow(rng: np.random.Generator) -> None:
+    image, rock, shadow = rock_with_shadow(rng)
+    found = segment(Observation(image=image), variant="robust")
+    assert found.ground is None
+    number = found.labels[120, 150]
+    assert number > 0
+    assert found.found[number - 1].branch == "image"
+    mine = found.labels == number
+    assert (mine & rock).sum() / (mine | rock).sum() > 0.7
+    assert found.labels[shadow].astype(bool).mean() < 0.3
+
+
+def test_bare_ground_and_an_even_image_show_no_rocks(rng: np.random.Generator) -> None:
+    bare = textured((240, 320), rng).astype(np.float32)
+    assert segment(Observation(image=bare), variant="robust").labels.max() == 0
+    even = np.full((60, 80), 0.5, dtype=np.float32)
+    assert segment(Observation(image=even), variant="robust").labels.max() == 0
+
+
+def disc_image(shift: float) -> np.ndarray:
+    """A dark disc of radius 30.3 on ground, its border drawn to a sixteenth of a pixel."""
+    y, x = (np.mgrid[: 16 * 120, : 16 * 120] + 0.5) / 16 - 0.5
+    fine = np.where(np.hypot(x - 60 - shift, y - 60) <= 30.3, 0.3, 0.6)
+    return cv2.resize(fine, (120, 120), interpolation=cv2.INTER_AREA).astype(np.float32)
+
+
+def test_a_fattened_outline_comes_to_the_images_edge(rng: np.random.Generator) -> None:
+    image = disc_image(0.4) * (1 + 0.02 * rng.standard_normal((120, 120))).astype(np.float32)
+    y, x = np.mgrid[:120, :120]
+    fat = (np.hypot(x - 60.4, y - 60) <= 33 + 1.5 * np.sin(5 * np.arctan2(y - 60, x - 60))).astype(
+        np.int32
+    )
+    outlines = snap(image, fat, texture=0.02)
+    ring = outlines[1].points_px
+    misses = np.hypot(ring[:, 0] - 60.4, ring[:, 1] - 60) - 30.3
+    # lanes are half a pixel apart and a parabola tells between them
+    assert np.median(np.abs(misses)) < 0.15
+    assert np.abs(misses.mean()) < 0.1
+    assert 0 < outlines[1].sd_px < 1
+    labels = paint(outlines, fat, order=[1])
+    assert abs(labels.sum() - np.pi * 30.3**2) < 0.01 * np.pi * 30.3**2
+
+
+def test_an_outline_on_the_edge_is_left_alone() -> None:
+    truth = solids.disc(30.0).astype(np.int32)
+    image = np.where(truth > 0, 0.3, 0.6).astype(np.float32)
+    assert snap(image, truth, texture=0.02) == {}
+
+
+def test_no_labels_have_no_outlines() -> None:
+    assert snap(np.full((40, 40), 0.5, np.float32), np.zeros((40, 40), np.int32), texture=1.0) == {}

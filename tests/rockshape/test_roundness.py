@@ -1,0 +1,148 @@
+"""Wadell's roundness against closed forms, at several sizes."""
+
+import numpy as np
+import pytest
+from matplotlib.path import Path
+from scipy.spatial import Delaunay
+
+from rockshape.outline_edge import trace_edge
+from rockshape.outline_even import even_outline, pixel_smooth
+from rockshape.roundness import inscribed_radius, smooth_curvature, wadell_roundness
+from tests import solids
+
+
+def box(half_length: float, half_width: float, radius: float) -> np.ndarray:
+    """Outline of a box whose corners are rounded, about a pixel apart."""
+    turns = np.linspace(0, np.pi / 2, 200)
+    arc = radius * np.column_stack([np.cos(turns), np.sin(turns)])
+    x, y = half_length - radius, half_width - radius
+    quarters = []
+    for index, corner in enumerate(((x, y), (-x, y), (-x, -y), (x, -y))):
+        cosine, sine = np.cos(index * np.pi / 2), np.sin(index * np.pi / 2)
+        quarters.append(arc @ np.array([[cosine, sine], [-sine, cosine]]) + corner)
+    outline = np.concatenate(quarters)
+    return even_outline(outline, round(4 * (half_length + half_width)))
+
+
+def box_mask(half: float, radius: float, turn_rad: float) -> np.ndarray:
+    """Pixels of a turned square with rounded corners."""
+    size = int(3 * half) + 9
+    y, x = np.mgrid[:size, :size] - (size - 1) / 2
+    u = np.abs(x * np.cos(turn_rad) + y * np.sin(turn_rad)) - (half - radius)
+    v = np.abs(y * np.cos(turn_rad) - x * np.sin(turn_rad)) - (half - radius)
+    beyond = np.hypot(np.maximum(u, 0), np.maximum(v, 0)) + np.minimum(np.maximum(u, v), 0)
+    return np.asarray(beyond <= radius)
+
+
+@pytest.mark.parametrize("share", [0.1, 0.2, 0.4, 0.6])
+@pytest.mark.parametrize(("length", "width"), [(100, 100), (100, 50)])
+def test_a_rounded_box_is_as_round_as_its_corners(
+    share: float, length: float, width: float
+) -> None:
+    outline = box(length, width, share * width)
+    # the correction for smoothing is exact for lone arcs; neighbours reach into each other
+    assert wadell_roundness(outline) == pytest.approx(share, abs=0.01)
+
+
+def test_a_disc_and_a_stadium_have_no_corners() -> None:
+    assert wadell_roundness(solids.circle(60, points=377)) == 1
+    # a stadium's ends have the radius of its inscribed circle: within rounding no corner or one
+    assert wadell_roundness(box(100, 50, 49.9999)) == pytest.approx(1, abs=0.02)
+
+
+@pytest.mark.parametrize("ratio", [0.9, 0.7, 0.5])
+def test_an_ellipse_has_the_curvature_of_its_ends(ratio: float) -> None:
+    outline = even_outline(solids.circle(200, points=9000) * (1, ratio), 1000)
+    # ends b²/a in an inscribed circle b; smoothing takes the more of a sharp end's peak
+    assert wadell_roundness(outline) == pytest.approx(ratio, abs=0.03)
+
+
+@pytest.mark.parametrize("half", [30, 50, 100, 250])
+@pytest.mark.parametrize("share", [0.1, 0.2, 0.5, 0.8])
+def test_pixels_of_any_number_tell_the_same_roundness(
+    half: float, share: float, rng: np.random.Generator
+) -> None:
+    found = [
+        wadell_roundness(pixel_smooth(trace_edge(box_mask(half, share * half, turn))))
+        for turn in rng.uniform(0, np.pi / 2, 6)
+    ]
+    # the sides between corners of 0.8 are 12 px at half = 30, sigma 5 px: corners reach over them
+    assert np.mean(found) == pytest.approx(share, abs=0.06 if share == 0.8 else 0.03)
+    assert np.std(found) < 0.03
+
+
+def test_start_direction_place_turn_and_mirror_mean_nothing() -> None:
+    outline = even_outline(box(90, 50, 20) @ np.array([[0.8, 0.6], [-0.6, 0.8]]), 480)
+    expected = wadell_roundness(outline)
+    quarter = np.array([[0.0, 1.0], [-1.0, 0.0]])
+    others = [
+        np.roll(outline, 17, axis=0),
+        outline[::-1],
+        outline + np.array([1000, -77]),
+        outline * (-1, 1),
+        outline @ quarter,
+    ]
+    for other in others:
+        assert wadell_roundness(other) == pytest.approx(expected, rel=1e-6)
+
+
+def test_curvature_of_a_circle_is_its_inverse_radius() -> None:
+    curvature, step = smooth_curvature(solids.circle(40, points=250), sigma=5)
+    # a polygon's length falls short of its circle's by (pi/250)²/6
+    assert curvature == pytest.approx(1 / 40, rel=1e-4)
+    assert step == pytest.approx(2 * np.pi * 40 / 250, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("outline", "radius"),
+    [
+        (solids.circle(7, points=200), 7),
+        (solids.regular_polygon(3, 2, points=900), 1),
+        (solids.regular_polygon(4, np.sqrt(2), points=800) * (3, 1), 1 * 1),
+        (box(100, 50, 10) - 900, 50),
+    ],
+    ids=["circle", "triangle", "rhomb", "box"],
+)
+def test_the_inscribed_circle_has_its_closed_form(outline: np.ndarray, radius: float) -> None:
+    # points of an outline stand for it within 1e-3 of the radius between them
+    if len(outline) == 800:
+        # a square's corners on the axes, stretched: sides at a right angle to (1, 3) / sqrt(10)
+        radius = 3 * np.sqrt(2) / np.sqrt(10)
+    assert inscribed_radius(outline) == pytest.approx(radius, rel=2e-3)
+
+
+def test_the_inscribed_circle_is_that_of_qhulls_triangulation(rng: np.random.Generator) -> None:
+    turns = 2 * np.pi * np.arange(600) / 600
+    for _ in range(10):
+        waves = rng.normal(scale=0.08, size=(2, 6)) @ [np.cos(k * turns) for k in range(2, 8)]
+        points = 40 * (solids.circle(1, points=600) + waves.T)
+        even = even_outline(points, 256)
+        corners = even[Delaunay(even).simplices]
+        one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+        sides = np.stack([one, two], axis=1)
+        centres = (
+            corners[:, 0] + np.linalg.solve(sides, (sides**2).sum(axis=2)[..., None] / 2)[..., 0]
+        )
+        radii = np.linalg.norm(centres - corners[:, 0], axis=1)
+        inside = Path(even).contains_points(centres)
+        # single precision
+        assert inscribed_radius(points) == pytest.approx(radii[inside].max(), rel=1e-6)
+
+
+def test_the_inscribed_circle_of_a_bent_outline_lies_in_its_widest_part() -> None:
+    mask = solids.disc(30) | np.roll(solids.disc(30), 25, axis=1)
+    mask = np.pad(mask, 2)
+    mask[34:38, :] = False
+    outline = pixel_smooth(trace_edge(mask))
+    grid = np.stack(np.meshgrid(np.arange(mask.shape[1]), np.arange(mask.shape[0])), axis=-1)
+    inside = grid[Path(outline).contains_points(grid.reshape(-1, 2)).reshape(mask.shape)]
+    brute = np.linalg.norm(inside[:, None] - outline, axis=2).min(axis=1).max()
+    assert brute <= inscribed_radius(outline) + 0.01  # of whole pixels, which cannot do better
+    assert inscribed_radius(outline) <= brute + np.sqrt(0.5)
+
+
+def test_what_has_no_inside_has_no_roundness() -> None:
+    assert np.isnan(wadell_roundness(solids.circle(5, points=39)))
+    assert np.isnan(wadell_roundness(np.ones((60, 2))))
+    line = np.column_stack([np.r_[np.arange(50.0), np.arange(50.0, 0, -1)], np.zeros(100)])
+    assert np.isnan(wadell_roundness(line))

@@ -1,12 +1,20 @@
 # `make demo` and `make test` each set up all they need first; a second run sets up nothing again.
 
-.PHONY: demo test lint setup clean
+.PHONY: demo baseline compare test lint setup clean
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 1)
 
 demo: .venv/.ready
 	.venv/bin/rockshape validate run --suite ci --out reports/demo --jobs $(JOBS)
 	@echo "report: reports/demo/index.html"
+
+compare: .venv/.ready
+	.venv/bin/rockshape validate compare reports/baseline reports/demo
+
+# After a change that is meant to move scores: the run that later ones are compared with.
+baseline: demo
+	mkdir -p reports/baseline
+	cp reports/demo/scores.json reports/demo/results.parquet reports/demo/summary.md reports/baseline
 
 test: .venv/.ready
 	.venv/bin/pytest --numprocesses $(JOBS)

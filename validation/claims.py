@@ -1,47 +1,118 @@
-"""What each measure claims to rank, and by which truth the claim is held.
+"""What each column of each method claims to rank, and by which truth the claim is held.
 
-A measure without a claim here is measured and stored, but not judged.
+A column without a claim here is measured and stored, but not judged.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+
+from rockshape.measures import METHODS
+from validation.measures import Trait
+from validation.suite import (
+    Experiment,
+    SegmentationExperiment,
+    ShapesExperiment,
+    Suite,
+    YardExperiment,
+)
+
+# What the columns rise with. A measure of the package without a line here is not judged.
+RISES_WITH: dict[str, Trait] = {
+    "angularity_2d_deg": "angularity",
+    "ellipse_error_px2": "angularity",
+    "angularity_3d_per_m": "angularity",
+    "ellipsoid_error_m2": "angularity",
+    "angularity_2d": "angularity",
+    "ellipse_error": "angularity",
+    "angularity_3d": "angularity",
+    "ellipsoid_error": "angularity",
+    "roundness": "roundness",
+    "axis_ratio": "form",
+    "sphericity_2d": "form",
+    "sphericity_3d": "form",
+}
+
+# The traits that differ between rocks where an experiment varies one: roundness is the reverse of
+# angularity, whose truth is 1 − roundness.
+_TRAITS: dict[str, tuple[Trait, ...]] = {
+    "angularity": ("angularity", "roundness"),
+    "roundness": ("angularity", "roundness"),
+    "form": ("form",),
+    "sphericity": ("form",),
+}
+_TRUTH: dict[Trait, str] = {
+    "angularity": "truth_angularity",
+    "roundness": "truth_roundness",
+    "form": "truth_maximum_projection_sphericity",
+}
+ASPECT = "truth_axis_ratio"
+RECTANGLE = "truth_rectangle_ratio"  # short over long side of the smallest rectangle
+_SAME_QUANTITY = {
+    ("axis_ratio", ASPECT),
+    ("sphericity_2d", RECTANGLE),
+    ("sphericity_3d", _TRUTH["form"]),
+}
 
 
 @dataclass(frozen=True)
 class Claim:
-    """A measure rises with a truth: both are columns of the records."""
+    """A method's column rises with a truth, in one experiment (and one series of shapes)."""
 
-    measure: str
-    truth: str
+    experiment: str
+    series: str  # of shapes; empty for rocks
+    method: str
+    measure: str  # the column
+    truth: str  # a column of the records
+
+    @property
+    def same_quantity(self) -> bool:
+        """Whether measure and truth are one quantity, so that their difference is an error."""
+        return (self.measure, self.truth) in _SAME_QUANTITY
 
 
-ANGULARITY = "truth_angularity"  # 1 − roundness: the paper's measures rise with angularity
-FORM = "truth_maximum_projection_sphericity"
-ASPECT = "truth_axis_ratio"
-RECTANGLE = "truth_rectangle_ratio"  # short over long side of the smallest rectangle
+def _columns(
+    suite: Suite, experiment: YardExperiment | ShapesExperiment
+) -> Iterator[tuple[str, str, Trait]]:
+    """Yield (method, column, trait), the package's own methods first."""
+    flat = not isinstance(experiment, YardExperiment)
+    for method in experiment.methods:
+        for measure in METHODS[method]:
+            if measure.column in RISES_WITH and not (flat and measure.needs_range):
+                yield method, measure.column, RISES_WITH[measure.column]
+    for spec in suite.measures:
+        for column, trait in spec.rises_with.items():
+            yield spec.name, column, trait
 
-# Keyed by what an experiment of rocks varies.
-YARD_CLAIMS = {
-    "angularity": (
-        Claim("angularity_2d_deg", ANGULARITY),
-        Claim("ellipse_error_px2", ANGULARITY),
-        Claim("angularity_3d_per_m", ANGULARITY),
-        Claim("ellipsoid_error_m2", ANGULARITY),
-    ),
-    "form": (
-        Claim("axis_ratio", FORM),
-        Claim("sphericity_2d", FORM),
-        Claim("sphericity_3d", FORM),
-    ),
-}
 
-# Keyed by the series of shapes.
-SHAPES_CLAIMS = {
-    "roundness": (
-        Claim("angularity_2d_deg", ANGULARITY),
-        Claim("ellipse_error_px2", ANGULARITY),
-    ),
-    "sphericity": (
-        Claim("axis_ratio", ASPECT),
-        Claim("sphericity_2d", RECTANGLE),
-    ),
-}
+def _shape_truth(column: str, trait: Trait) -> str:
+    if trait != "form":
+        return _TRUTH[trait]
+    return RECTANGLE if column == "sphericity_2d" else ASPECT
+
+
+def claims_of(suite: Suite, experiment: Experiment) -> tuple[Claim, ...]:
+    """Return the claims that an experiment can judge, by what it varies, then by method.
+
+    A segmentation measures nothing and claims nothing.
+    """
+    if isinstance(experiment, SegmentationExperiment):
+        return ()
+    columns = list(_columns(suite, experiment))
+    if isinstance(experiment, YardExperiment):
+        return tuple(
+            Claim(experiment.name, "", method, column, _TRUTH[trait])
+            for varied in experiment.varied
+            for method, column, trait in columns
+            if trait in _TRAITS[varied]
+        )
+    return tuple(
+        Claim(experiment.name, series, method, column, _shape_truth(column, trait))
+        for series in experiment.series
+        for method, column, trait in columns
+        if trait in _TRAITS[series]
+    )
+
+
+def all_claims(suite: Suite) -> tuple[Claim, ...]:
+    """Return the claims of all experiments of a suite."""
+    return tuple(c for experiment in suite.experiments for c in claims_of(suite, experiment))

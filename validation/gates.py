@@ -3,21 +3,36 @@
 import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Literal, NamedTuple
 
 from msgspec import Meta, Struct
 
 from validation.errors import InputError
 
 Text = Annotated[str, Meta(min_length=1)]
+End = Literal["value", "low", "high"]
+
+
+class Found(NamedTuple):
+    """What a score came to, and its interval; NaN where there is none."""
+
+    value: float
+    low: float = math.nan
+    high: float = math.nan
 
 
 class Gate(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """One bound on one score, with the reason why it stands where it stands."""
+    """One bound on one score, with the reason why it stands where it stands.
+
+    `end` says what must clear the bound: the value itself, or an end of its 95 % interval. `low`
+    with at_least (`high` with at_most) passes only what is sure; the other end fails only what is
+    surely wrong.
+    """
 
     score: Text
     at_least: float | None = None
     at_most: float | None = None
+    end: End = "value"
     reason: Text
 
     def __post_init__(self) -> None:
@@ -48,9 +63,14 @@ class GateFile(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     gate: Annotated[tuple[Gate, ...], Meta(min_length=1)]
 
 
+def gates_on(gates: Sequence[Gate], known: Collection[str]) -> tuple[Gate, ...]:
+    """Return the gates whose scores are known: those of the methods that are run."""
+    return tuple(gate for gate in gates if gate.score in known)
+
+
 @dataclass(frozen=True)
 class GateResult:
-    """A gate and the value it met; NaN where there was none."""
+    """A gate and the number it met, the value or an end; NaN where there was none."""
 
     gate: Gate
     found: float
@@ -74,11 +94,12 @@ def check_names(gates: Sequence[Gate], known: Collection[str], *, where: str) ->
         )
 
 
-def evaluate(gates: Sequence[Gate], values: Mapping[str, float]) -> tuple[GateResult, ...]:
-    """Hold each gate against its score. A score that is missing or NaN fails, never passes."""
+def evaluate(gates: Sequence[Gate], scores: Mapping[str, Found]) -> tuple[GateResult, ...]:
+    """Hold each gate against its score. A score or end that is missing or NaN fails."""
     results = []
     for gate in gates:
-        found = values.get(gate.score, math.nan)
+        score = scores.get(gate.score, Found(math.nan))
+        found = {"value": score.value, "low": score.low, "high": score.high}[gate.end]
         passed = found >= gate.bound if gate.at_least is not None else found <= gate.bound
         results.append(GateResult(gate=gate, found=found, passed=passed))
     return tuple(results)

@@ -1,49 +1,66 @@
 """Measurers whose verdict is known before: one that knows the truth and two that know nothing.
 
 They go through the same scoring and the same gates as a real run. If the oracle failed a gate, or
-one of the others passed them all, the gates would be wrong and not the measures.
+one of the others passed them all, the gates would be wrong and not the measures. Gates on a level
+are left out: the truth has no degrees.
 """
 
-from collections.abc import Iterator
+from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
-from validation.claims import SHAPES_CLAIMS, YARD_CLAIMS, Claim
+from validation.claims import Claim
 
-
-def _claims(records: pd.DataFrame) -> Iterator[tuple[NDArray[np.bool_], Claim]]:
-    yard = (records["kind"] == "yard").to_numpy()
-    for claims in YARD_CLAIMS.values():
-        for claim in claims:
-            yield yard, claim
-    for series, claims in SHAPES_CLAIMS.items():
-        rows = ((records["kind"] == "shapes") & (records["series"] == series)).to_numpy()
-        for claim in claims:
-            yield rows, claim
+_SCENE = ["experiment", "series", "scene"]
+_TRUE = {"row": "truth_row", "col": "truth_col", "axis_a_m": "truth_axis_a_m"}
+_FAULTLESS = {"boundary_px": 0.0, "split": False, "merged": False, "ground_sigmas": 0.0}
 
 
-def oracle(records: pd.DataFrame) -> pd.DataFrame:
-    """Return records in which every rock is found and every measure is the truth it claims."""
-    fed = records[records["status"] != "extra"].copy()
-    fed["status"] = "matched"
-    fed["iou"] = 1.0
-    for rows, claim in _claims(fed):
-        if rows.any():
-            fed.loc[rows, claim.measure] = fed.loc[rows, claim.truth]
+def _is_segmented(records: pd.DataFrame) -> "pd.Series[bool]":
+    return records["kind"] == "segmentation"
+
+
+def _unmatched(records: pd.DataFrame) -> pd.DataFrame:
+    """Return a copy in which segmented rocks stand elsewhere than the true ones."""
+    fed = records.copy()
+    found = _is_segmented(fed) & (fed["status"] == "matched")
+    fed.loc[found, "status"] = "missed"
+    fed.loc[found, "iou"] = np.nan
     return fed
 
 
-def shuffled(records: pd.DataFrame, *, rng: np.random.Generator) -> pd.DataFrame:
+def oracle(records: pd.DataFrame, claims: Sequence[Claim]) -> pd.DataFrame:
+    """Return records in which every rock is found and every measure is the truth it claims."""
+    fed = records[records["status"] != "extra"].copy()
+    rocks = fed["status"] != "view"
+    fed.loc[rocks, "status"] = "matched"
+    fed.loc[rocks, "iou"] = 1.0
+    for column, value in _FAULTLESS.items():
+        if column in fed:
+            fed.loc[_is_segmented(fed), column] = value
+    for column, truth in _TRUE.items():
+        if truth in fed:
+            fed[column] = fed[truth]
+    for claim in claims:
+        rows = fed["experiment"] == claim.experiment
+        rows &= (fed["series"] == claim.series) & (fed["method"] == claim.method)
+        fed.loc[rows, claim.measure] = fed.loc[rows, claim.truth]
+    return fed
+
+
+def shuffled(
+    records: pd.DataFrame, claims: Sequence[Claim], *, rng: np.random.Generator
+) -> pd.DataFrame:
     """Return the oracle's records with each scene's truth dealt out anew among its rocks.
 
-    All views of a scene get the same deal, so that agreement between views stays perfect and only
-    the order against the truth is lost.
+    All views and methods of a scene get the same deal, so that agreement between views stays
+    perfect and only the order against the truth is lost. Of a segmentation no rock is where a true
+    one is.
     """
-    fed = oracle(records)
+    fed = _unmatched(oracle(records, claims))
     columns = [name for name in fed.columns if name.startswith("truth_")]
-    for _, scene in fed.groupby(["experiment", "series", "scene"], sort=True):
+    for _, scene in fed[~_is_segmented(fed)].groupby(_SCENE, sort=True):
         instances = np.sort(scene["instance"].unique())
         dealt = dict(zip(instances, rng.permutation(instances), strict=True))
         source = scene.drop_duplicates("instance").set_index("instance")[columns]
@@ -51,15 +68,18 @@ def shuffled(records: pd.DataFrame, *, rng: np.random.Generator) -> pd.DataFrame
     return fed
 
 
-def mixed(records: pd.DataFrame, *, rng: np.random.Generator) -> pd.DataFrame:
+def mixed(
+    records: pd.DataFrame, claims: Sequence[Claim], *, rng: np.random.Generator
+) -> pd.DataFrame:
     """Return the records with each view's measured values dealt out anew among its rocks.
 
     The values are as they were measured, but no rock keeps its own from one view to the next: a
-    gate on how well a rock's value holds must fail.
+    gate on how well a rock's value holds must fail. Of a segmentation no rock is where a true one
+    is.
     """
-    fed = records.copy()
-    columns = list(dict.fromkeys(claim.measure for _, claim in _claims(records)))
-    found = fed[fed["status"] == "matched"]
-    for _, view in found.groupby(["experiment", "series", "scene", "view"], sort=True):
+    fed = _unmatched(records)
+    columns = list(dict.fromkeys(claim.measure for claim in claims))
+    found = fed[(fed["status"] == "matched") & ~_is_segmented(fed)]
+    for _, view in found.groupby([*_SCENE, "view", "method"], sort=True):
         fed.loc[view.index, columns] = view[columns].to_numpy()[rng.permutation(len(view))]
     return fed

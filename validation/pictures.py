@@ -21,6 +21,11 @@ class Picture:
     width_px: int
     height_px: int
 
+    @property
+    def size_bytes(self) -> int:
+        """The length of the JPEG."""
+        return len(self.jpeg)
+
 
 def crop_box(labels: NDArray[np.int32], *, margin: float = 0.12) -> tuple[int, int, int, int]:
     """Return (top, bottom, left, right) in pixels round all labels, with a margin.

@@ -6,8 +6,6 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from rockshape.pipeline import Measurement
-from rockshape.table import to_frame
 from validation.match import match_labels
 
 
@@ -16,28 +14,31 @@ class Place:
     """Where a row comes from; the first columns of the records."""
 
     experiment: str
-    kind: str  # yard or shapes
-    series: str  # of shapes; empty for rocks
+    kind: str  # yard, shapes or segmentation
+    series: str  # of shapes; way and range of a segmentation; empty for rocks
     scene: int
     seed: int
     view: int
+    method: str  # empty for a segmentation
 
 
 def join(
     place: Place,
     truth: pd.DataFrame,
     instances: NDArray[np.int32],
-    measurement: Measurement,
+    labels: NDArray[np.int32],
+    measured: pd.DataFrame,
     *,
     min_iou: float,
 ) -> pd.DataFrame:
     """Set each true rock of a view beside the measured one that overlaps it.
 
+    `measured` has one row for each number of `labels`, (rows, cols), named in its column `rock`.
     `truth` has the columns `instance` and `eligible`, and `instances` (rows, cols) shows instance
     i as i + 1. The column `status` says `matched`, `missed` (no measured partner) or `extra` (no
     true one); an extra rock is not eligible.
     """
-    found = match_labels(instances, measurement.labels, min_iou=min_iou)
+    found = match_labels(instances, labels, min_iou=min_iou)
     partners = pd.DataFrame(
         {
             "instance": np.array([match.truth - 1 for match in found], dtype=np.int64),
@@ -47,7 +48,6 @@ def join(
     )
     known = truth.astype({"instance": np.int64}).merge(partners, on="instance", how="left")
     known["status"] = np.where(known["rock"].isna(), "missed", "matched")
-    measured = to_frame(measurement)
     extra = pd.DataFrame({"rock": measured.loc[~measured["rock"].isin(partners["rock"]), "rock"]})
     extra = extra.assign(status="extra", eligible=False)
     rows = pd.concat([known, extra], ignore_index=True).merge(measured, on="rock", how="left")

@@ -1,29 +1,29 @@
-"""Run a suite: its units on local processes, then scores, then gates."""
+"""Run a suite: its units on an executor, then scores, then gates."""
 
 import os
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
-from contextlib import contextmanager
+from collections.abc import Iterable, Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass
-from multiprocessing import get_context
 
-import cv2
 import msgspec
 import numpy as np
 import pandas as pd
 
 from synth.render import choose_backend
-from validation.errors import InputError
-from validation.gates import Gate, GateResult, evaluate
+from validation.claims import all_claims
+from validation.dispatch import OnDone, dispatch
+from validation.gates import Found, Gate, GateResult, evaluate
 from validation.oracle import mixed, oracle, shuffled
 from validation.pictures import Picture
-from validation.scores import Score, score_records, score_values
-from validation.suite import Experiment, Suite, YardExperiment
-from validation.units import Unit, UnitResult, run_unit, units_of
+from validation.scores import Score, gate_scores, score_records
+from validation.store import StoredPicture, StoredResult, UnitStore, unit_key
+from validation.suite import Experiment, ShapesExperiment, Suite
+from validation.units import UnitResult, units_of
+
+AnyPicture = Picture | StoredPicture
+Result = UnitResult | StoredResult
 
 SHUFFLE_SEED = 6
-
-OnDone = Callable[[Unit], None]
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class Run:
 
     suite: Suite
     records: pd.DataFrame
-    pictures: tuple[Picture, ...]
+    pictures: tuple[AnyPicture, ...]
     backend: str
     scores: tuple[Score, ...]
     gates: tuple[GateResult, ...]
@@ -64,55 +64,6 @@ class Run:
         return all(gate.passed for gate in self.gates)
 
 
-BLAS_THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
-
-
-def _one_thread() -> None:
-    """Keep a worker to one thread: the processes are the parallelism."""
-    cv2.setNumThreads(1)
-
-
-@contextmanager
-def _one_blas_thread() -> Iterator[None]:
-    """Let processes begun within start numpy with one thread, unless the user says otherwise."""
-    added = {name: "1" for name in BLAS_THREADS if name not in os.environ}
-    os.environ.update(added)
-    try:
-        yield
-    finally:
-        for name in added:
-            del os.environ[name]
-
-
-def _run_on(executor: Executor, units: Sequence[Unit], on_done: OnDone) -> list[UnitResult]:
-    futures = {executor.submit(run_unit, unit): index for index, unit in enumerate(units)}
-    try:
-        for future in as_completed(futures):
-            future.result()
-            on_done(units[futures[future]])
-    except BaseException:
-        executor.shutdown(wait=False, cancel_futures=True)
-        raise
-    return [future.result() for future in futures]
-
-
-def run_units(units: Sequence[Unit], *, jobs: int, on_done: OnDone) -> list[UnitResult]:
-    """Return the units' results in the units' order, from fresh processes that may render.
-
-    Raises:
-        InputError: jobs is less than one.
-    """
-    if jobs < 1:
-        raise InputError(f"--jobs: expected 1 or more, found {jobs}")
-    workers = min(jobs, len(units))
-    spawn = get_context("spawn")
-    with (
-        _one_blas_thread(),
-        ProcessPoolExecutor(workers, spawn, initializer=_one_thread) as executor,
-    ):
-        return _run_on(executor, units, on_done)
-
-
 def default_jobs() -> int:
     """Return the number of processors this process may use."""
     if hasattr(os, "sched_getaffinity"):
@@ -122,7 +73,7 @@ def default_jobs() -> int:
 
 def _with_backend(experiment: Experiment) -> Experiment:
     """Return the experiment with the renderer that this machine has in place of `auto`."""
-    if not isinstance(experiment, YardExperiment):
+    if isinstance(experiment, ShapesExperiment):
         return experiment
     scene = msgspec.structs.replace(
         experiment.scene, renderer=choose_backend(experiment.scene.renderer)
@@ -130,37 +81,71 @@ def _with_backend(experiment: Experiment) -> Experiment:
     return msgspec.structs.replace(experiment, scene=scene)
 
 
-def assess(suite: Suite, gates: Sequence[Gate], results: Sequence[UnitResult]) -> Run:
-    """Score the results and hold the scores, and those of the known measurers, to the gates."""
+def assess(suite: Suite, gates: Sequence[Gate], results: Iterable[Result]) -> Run:
+    """Score the results and hold the scores, and those of the known measurers, to the gates.
+
+    Gates on a level are no part of the checks: the truth is not in the measure's unit.
+    """
     rng = np.random.default_rng(SHUFFLE_SEED)
-    records = pd.concat([result.records for result in results], ignore_index=True)
+    tables: list[pd.DataFrame] = []
+    pictures: list[AnyPicture] = []
+    backends: set[str] = set()
+    for result in results:
+        tables.append(result.records)
+        pictures.extend(result.pictures)
+        backends.add(result.backend)
+    records = pd.concat(tables, ignore_index=True)
     scores = score_records(suite, records)
+    found = {score.name: Found(score.value, score.low, score.high) for score in scores}
+    checked = [gate for gate in gates if not gate.score.endswith(".level")]
+    claims = all_claims(suite)
 
     def gated(fed: pd.DataFrame) -> tuple[GateResult, ...]:
-        return evaluate(gates, score_values(suite, fed))
+        return evaluate(checked, gate_scores(suite, checked, fed))
 
+    other, mingled = shuffled(records, claims, rng=rng), mixed(records, claims, rng=rng)
     return Run(
         suite=suite,
         records=records,
-        pictures=tuple(p for result in results for p in result.pictures),
-        backend=", ".join(sorted({r.backend for r in results if r.backend})),
+        pictures=tuple(pictures),
+        backend=", ".join(sorted(backends - {""})),
         scores=scores,
-        gates=evaluate(gates, {score.name: score.value for score in scores}),
+        gates=evaluate(gates, found),
         checks=(
-            Check("oracle", "the truth as measurement", True, gated(oracle(records))),
-            Check("shuffled", "the truth of other rocks", False, gated(shuffled(records, rng=rng))),
-            Check("mixed", "the values of other rocks", False, gated(mixed(records, rng=rng))),
-        ),
+            Check("oracle", "the truth as measurement", True, gated(oracle(records, claims))),
+            Check("shuffled", "the truth of other rocks", False, gated(other)),
+            Check("mixed", "the values of other rocks", False, gated(mingled)),
+        )
+        if checked
+        else (),
     )
 
 
-def run_suite(suite: Suite, *, gates: Sequence[Gate], jobs: int, on_done: OnDone) -> Run:
-    """Run every unit of the suite and assess what came out.
+def prepare(suite: Suite) -> Suite:
+    """Return the suite with the renderers that this machine has; its units are then settled.
 
     Raises:
         MissingBackendError: the machine lacks the renderer; found out before any work is done.
     """
-    suite = msgspec.structs.replace(
+    return msgspec.structs.replace(
         suite, experiments=tuple(_with_backend(experiment) for experiment in suite.experiments)
     )
-    return assess(suite, gates, run_units(units_of(suite), jobs=jobs, on_done=on_done))
+
+
+def run_suite(
+    suite: Suite,
+    *,
+    gates: Sequence[Gate],
+    executor: Executor,
+    store: UnitStore,
+    on_done: OnDone,
+) -> Run:
+    """Run the units of a prepared suite that the store lacks, then assess all.
+
+    All results are read back from the store, so that a resumed run and an undisturbed one are
+    equal.
+    """
+    keyed = [(unit_key(unit), unit) for unit in units_of(suite)]
+    missing = [(key, unit) for key, unit in keyed if not store.has(key)]
+    dispatch(missing, executor, store, on_done)
+    return assess(suite, gates, store.results([key for key, _ in keyed]))

@@ -8,16 +8,29 @@ from typing import Annotated, Literal, TypeVar
 import msgspec
 from msgspec import Meta, Struct, field
 
+from rockshape.measures import METHODS
 from synth.spec import SceneSpec
 from validation.errors import InputError
 from validation.gates import Gate, GateFile
+from validation.measures import MeasureSpec, Name, Text
 
-Name = Annotated[str, Meta(pattern="^[a-z][a-z0-9_-]*$")]
-Text = Annotated[str, Meta(min_length=1)]
 Seed = Annotated[int, Meta(ge=0, lt=2**32)]
-Method = Literal["paper"]
+Methods = Annotated[tuple[str, ...], Meta(min_length=1)]
 Varied = Literal["angularity", "form"]
+Way = Annotated[
+    str,
+    Meta(pattern="^((paper|robust|height|watershed)-(exact|stereo|sgm)|(robust|otsu)-none)$"),
+]
 ShapeSeries = Literal["roundness", "sphericity"]
+
+
+def _check_methods(experiment: str, methods: tuple[str, ...]) -> None:
+    if 0 < len(methods) == len(set(methods)) and set(methods) <= set(METHODS):
+        return
+    raise ValueError(
+        f"experiment {experiment!r}: methods: expected some of {', '.join(METHODS)}, each once, "
+        f"found {', '.join(methods) or 'none'}"
+    )
 
 
 class YardExperiment(
@@ -34,13 +47,14 @@ class YardExperiment(
     scenes: Annotated[int, Meta(ge=1, le=9999)]
     varied: Annotated[tuple[Varied, ...], Meta(min_length=1)]  # truths that differ between rocks
     scene: SceneSpec = SceneSpec()
-    method: Method = "paper"
+    methods: Methods = tuple(METHODS)  # side by side; the first one's outlines are the pictures'
     min_visible_fraction: Annotated[float, Meta(ge=0, le=1)] = 0.8
     min_iou: Annotated[float, Meta(gt=0, le=1)] = 0.5
     pictured: Annotated[int, Meta(ge=0, le=12)] = 1  # scenes shown in the report
 
     def __post_init__(self) -> None:
-        """Leave one place for the seed and for the number of scenes."""
+        """Ask for known methods, and leave one place for the seed and for the number of scenes."""
+        _check_methods(self.name, self.methods)
         if self.scene.seed != 0 or self.scene.scenes != 1:
             raise ValueError(
                 f"experiment {self.name!r}: expected seed and scenes beside its name, "
@@ -62,10 +76,58 @@ class ShapesExperiment(
     drawings: Annotated[int, Meta(ge=1, le=9999)]
     series: Annotated[tuple[ShapeSeries, ...], Meta(min_length=1)] = ("roundness", "sphericity")
     count: Annotated[int, Meta(ge=3, le=12)] = 4
-    method: Method = "paper"
+    methods: Methods = tuple(METHODS)
+
+    def __post_init__(self) -> None:
+        """Ask for known methods."""
+        _check_methods(self.name, self.methods)
 
 
-Experiment = YardExperiment | ShapesExperiment
+class SegmentationExperiment(
+    Struct,
+    frozen=True,
+    forbid_unknown_fields=True,
+    kw_only=True,
+    tag_field="kind",
+    tag="segmentation",
+):
+    """Rocks on the ground, segmented in several ways: variants of ours beside plain baselines.
+
+    Scene i of the experiment is scene 0 of `scene` with the seed `seed` + i. A rock counts where
+    it is so wide, so visible and wholly in the frame; from noisy range also only where it is so
+    high in standard deviations of its depth, not too far, and half of it has range.
+    """
+
+    name: Name
+    title: Text
+    seed: Seed
+    scenes: Annotated[int, Meta(ge=1, le=9999)]
+    series: Annotated[tuple[Way, ...], Meta(min_length=1)]  # a way and the range it is given
+    scene: SceneSpec = SceneSpec()
+    min_iou: Annotated[float, Meta(ge=0.5, le=1)] = 0.5
+    min_width_px: Annotated[int, Meta(ge=1)] = 12
+    min_visible_fraction: Annotated[float, Meta(ge=0, le=1)] = 0.5
+    min_height_sigma: Annotated[float, Meta(ge=0)] = 4.0
+    max_depth_m: Annotated[float, Meta(gt=0)] = 8.0
+    pictured: Annotated[int, Meta(ge=0, le=12)] = 1  # scenes shown in the report
+
+    def __post_init__(self) -> None:
+        """Leave one place for seed and number of scenes, and ask for range that the scene has."""
+        if self.scene.seed != 0 or self.scene.scenes != 1:
+            raise ValueError(
+                f"experiment {self.name!r}: expected seed and scenes beside its name, "
+                "found one of them under scene"
+            )
+        for series in self.series:
+            source = series.rpartition("-")[2]
+            if source in ("stereo", "sgm") and source != self.scene.noise.kind:
+                raise ValueError(
+                    f"series: {series!r} needs scene.noise.kind {source!r}, "
+                    f"found {self.scene.noise.kind!r}"
+                )
+
+
+Experiment = YardExperiment | ShapesExperiment | SegmentationExperiment
 
 
 class Suite(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -75,12 +137,27 @@ class Suite(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     title: Text
     experiments: Annotated[tuple[Experiment, ...], Meta(min_length=1)] = field(name="experiment")
     gates: Annotated[tuple[Gate, ...], Meta(min_length=1)] = field(name="gate")
+    measures: tuple[MeasureSpec, ...] = field(name="measure", default=())  # beside the methods
 
     def __post_init__(self) -> None:
-        """Ask for experiments whose names differ: the scores' names begin with them."""
-        names = [experiment.name for experiment in self.experiments]
-        if len(set(names)) < len(names):
-            raise ValueError(f"experiment: expected names that differ, found {', '.join(names)}")
+        """Ask for names that differ: the scores' names begin with them."""
+        for what, named in (("experiment", self.experiments), ("measure", self.measures)):
+            names = [each.name for each in named]
+            if len(set(names)) < len(names):
+                raise ValueError(f"{what}: expected names that differ, found {', '.join(names)}")
+
+
+def with_methods(suite: Suite, methods: tuple[str, ...]) -> Suite:
+    """Return the suite with every experiment that measures measured by these methods."""
+    return msgspec.structs.replace(
+        suite,
+        experiments=tuple(
+            experiment
+            if isinstance(experiment, SegmentationExperiment)
+            else msgspec.structs.replace(experiment, methods=methods)
+            for experiment in suite.experiments
+        ),
+    )
 
 
 _T = TypeVar("_T")

@@ -1,22 +1,30 @@
 """Work units: one scene or one drawing made, measured and matched, a pure function of its spec."""
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import msgspec
+import numpy as np
 import pandas as pd
+import scipy.ndimage as ndi
+from numpy.typing import NDArray
 
 from rockshape.draw import overlay
 from rockshape.io import read_camera, read_image, read_labels, read_range
 from rockshape.observation import Observation
 from rockshape.pipeline import measure
+from rockshape.table import to_frame
 from synth.dataset import write_common, write_scene
 from synth.render import choose_backend
 from synth.shapes import write_series
+from validation.measures import MeasureSpec, Seen, run_measure, source_digest
 from validation.pictures import Picture, compress
 from validation.records import Place, join
-from validation.suite import ShapesExperiment, Suite, YardExperiment
+from validation.segments.unit import run_scene
+from validation.suite import SegmentationExperiment, ShapesExperiment, Suite, YardExperiment
 from validation.truth import (
     SceneTruth,
     read_instances,
@@ -32,6 +40,7 @@ class SceneUnit:
 
     experiment: YardExperiment
     scene: int
+    measures: tuple[MeasureSpec, ...] = ()  # beside the experiment's methods
 
 
 @dataclass(frozen=True)
@@ -41,16 +50,26 @@ class DrawingUnit:
     experiment: ShapesExperiment
     series: str
     scene: int
+    measures: tuple[MeasureSpec, ...] = ()
 
 
-Unit = SceneUnit | DrawingUnit
+@dataclass(frozen=True)
+class SegmentationUnit:
+    """Scene number `scene` of an experiment of segmentation."""
+
+    experiment: SegmentationExperiment
+    scene: int
+
+
+MeasuredUnit = SceneUnit | DrawingUnit
+Unit = MeasuredUnit | SegmentationUnit
 
 
 @dataclass(frozen=True, eq=False)
 class UnitResult:
     """What became of a unit."""
 
-    records: pd.DataFrame  # one row a view and rock: true, found or both
+    records: pd.DataFrame  # one row a view, method (or way) and rock: true, found or both
     pictures: tuple[Picture, ...]
     backend: str  # the renderer, empty for drawings
 
@@ -60,10 +79,14 @@ def units_of(suite: Suite) -> tuple[Unit, ...]:
     units: list[Unit] = []
     for experiment in suite.experiments:
         if isinstance(experiment, YardExperiment):
-            units += [SceneUnit(experiment, scene) for scene in range(experiment.scenes)]
+            units += [
+                SceneUnit(experiment, scene, suite.measures) for scene in range(experiment.scenes)
+            ]
+        elif isinstance(experiment, SegmentationExperiment):
+            units += [SegmentationUnit(experiment, scene) for scene in range(experiment.scenes)]
         else:
             units += [
-                DrawingUnit(experiment, series, drawing)
+                DrawingUnit(experiment, series, drawing, suite.measures)
                 for series in experiment.series
                 for drawing in range(experiment.drawings)
             ]
@@ -76,7 +99,42 @@ def describe(unit: Unit) -> str:
     return f"{unit.experiment.name}{series} {unit.experiment.seed + unit.scene}"
 
 
-def _view_truth(scene: SceneTruth, view: int, *, experiment: YardExperiment) -> pd.DataFrame:
+def spec_of(unit: Unit) -> dict[str, object]:
+    """Return all that a unit's result depends on but the code, as plain values.
+
+    How many scenes there are, what they vary and what they are called is of no account.
+    """
+    spec: dict[str, object] = msgspec.to_builtins(unit.experiment)
+    for name in ("title", "scenes", "drawings", "varied", "pictured"):
+        spec.pop(name, None)
+    spec |= {"scene_number": unit.scene, "pictured": _is_pictured(unit)}
+    if isinstance(unit, SegmentationUnit):
+        return spec
+    spec["measures"] = [
+        {"name": m.name, "function": m.function, "command": m.command, "source": source_digest(m)}
+        for m in unit.measures
+    ]
+    if isinstance(unit, DrawingUnit):
+        spec["series"] = unit.series
+    return spec
+
+
+def _is_pictured(unit: Unit) -> bool:
+    return unit.scene < (1 if isinstance(unit, DrawingUnit) else unit.experiment.pictured)
+
+
+def _true_centres(instances: NDArray[np.int32]) -> pd.DataFrame:
+    """Return the centre of each instance's visible pixels, (instance, truth_row, truth_col)."""
+    numbers = np.unique(instances[instances > 0])
+    centres = ndi.center_of_mass(instances > 0, instances, numbers) if numbers.size else []
+    table = pd.DataFrame(centres, columns=["truth_row", "truth_col"], dtype=np.float64)
+    table.insert(0, "instance", numbers.astype(np.int64) - 1)
+    return table
+
+
+def _view_truth(
+    scene: SceneTruth, view: int, instances: NDArray[np.int32], *, experiment: YardExperiment
+) -> pd.DataFrame:
     """Return the truth of one view, one row a rock; `eligible` rocks stand in plain view."""
     rocks = pd.DataFrame([rock_columns(rock) for rock in scene.rocks])
     shown = pd.DataFrame(
@@ -92,10 +150,54 @@ def _view_truth(scene: SceneTruth, view: int, *, experiment: YardExperiment) -> 
             for rock in scene.views[str(view)]
         ]
     )
+    shown = shown.merge(_true_centres(instances), on="instance", how="left")
     return rocks.merge(shown, on="instance", how="inner")
 
 
-def _run_scene(unit: SceneUnit, folder: Path) -> UnitResult:
+@dataclass(frozen=True, eq=False)
+class View:
+    """One view with its truth, ready to be measured by every method."""
+
+    place: Place  # with the method yet to be named
+    observation: Observation
+    given: NDArray[np.int32] | None  # labels (rows, cols), or None where rocks are to be found
+    instances: NDArray[np.int32]
+    truth: pd.DataFrame
+    min_iou: float
+
+
+def _measure_view(view: View, unit: MeasuredUnit) -> tuple[pd.DataFrame, Picture | None]:
+    """Measure a view by the methods, then by measures from elsewhere on the first one's labels."""
+    found = [
+        measure(view.observation, method=method, labels=view.given)
+        for method in unit.experiment.methods
+    ]
+    labels = found[0].labels
+    tables = [(each.method, each.labels, to_frame(each)) for each in found]
+    seen = Seen(view.observation.image, labels, view.observation.points_m)
+    tables += [(spec.name, labels, run_measure(spec, seen)) for spec in unit.measures]
+    records = pd.concat(
+        [
+            join(
+                replace(view.place, method=method),
+                view.truth,
+                view.instances,
+                own_labels,
+                table,
+                min_iou=view.min_iou,
+            )
+            for method, own_labels, table in tables
+        ],
+        ignore_index=True,
+    )
+    if not _is_pictured(unit):
+        return records, None
+    place = replace(view.place, method=found[0].method)
+    drawn = overlay(view.observation.image, found[0])
+    return records, Picture(place, *compress(drawn, labels))
+
+
+def _scene_views(unit: SceneUnit, folder: Path) -> tuple[list[View], str]:
     experiment = unit.experiment
     spec = msgspec.structs.replace(experiment.scene, seed=experiment.seed + unit.scene)
     backend = choose_backend(spec.renderer)
@@ -104,50 +206,64 @@ def _run_scene(unit: SceneUnit, folder: Path) -> UnitResult:
     camera = read_camera(folder / "camera.json")
     scene = folder / "000000"
     truth = read_scene_truth(scene / "scene_gt_shape.json")
-    records, pictures = [], []
-    for view in range(spec.views.count):
-        name = f"{view:06d}.png"
+    views = []
+    for number in range(spec.views.count):
+        name = f"{number:06d}.png"
         image = read_image(scene / "gray" / name)
         points_m = read_range(scene / "depth" / name, shape=image.shape, camera=camera)
-        found = measure(
-            Observation(image=image, points_m=points_m, camera=camera), method=experiment.method
-        )
-        place = Place(experiment.name, "yard", "", unit.scene, spec.seed, view)
-        records.append(
-            join(
-                place,
-                _view_truth(truth, view, experiment=experiment),
-                read_instances(scene / "labels" / name),
-                found,
+        instances = read_instances(scene / "labels" / name)
+        views.append(
+            View(
+                place=Place(experiment.name, "yard", "", unit.scene, spec.seed, number, ""),
+                observation=Observation(image=image, points_m=points_m, camera=camera),
+                given=None,
+                instances=instances,
+                truth=_view_truth(truth, number, instances, experiment=experiment),
                 min_iou=experiment.min_iou,
             )
         )
-        if unit.scene < experiment.pictured:
-            pictures.append(Picture(place, *compress(overlay(image, found), found.labels)))
-    return UnitResult(pd.concat(records, ignore_index=True), tuple(pictures), backend)
+    return views, backend
 
 
-def _run_drawing(unit: DrawingUnit, folder: Path) -> UnitResult:
+def _drawing_view(unit: DrawingUnit, folder: Path) -> View:
     experiment = unit.experiment
     seed = experiment.seed + unit.scene
     write_series(unit.series, folder, count=experiment.count, seed=seed)
     image = read_image(folder / "image.png")
-    labels = read_labels(folder / "labels.png", shape=image.shape)
-    found = measure(Observation(image=image), method=experiment.method, labels=labels)
-    place = Place(experiment.name, "shapes", unit.series, unit.scene, seed, 0)
-    truth = read_shape_truth(folder / "truth.csv").assign(eligible=True)
-    instances = read_instances(folder / "labels.png")
-    records = join(place, truth, instances, found, min_iou=0.5)
-    pictures: tuple[Picture, ...] = ()
-    if unit.scene == 0:
-        pictures = (Picture(place, *compress(overlay(image, found), found.labels)),)
-    return UnitResult(records, pictures, "")
+    return View(
+        place=Place(experiment.name, "shapes", unit.series, unit.scene, seed, 0, ""),
+        observation=Observation(image=image),
+        given=read_labels(folder / "labels.png", shape=image.shape),
+        instances=read_instances(folder / "labels.png"),
+        truth=read_shape_truth(folder / "truth.csv").assign(eligible=True),
+        min_iou=0.5,
+    )
+
+
+@contextmanager
+def _data_folder() -> Iterator[Path]:
+    """Name a folder for a unit's data that is gone after it."""
+    with TemporaryDirectory(prefix="rockshape-") as parent:
+        yield Path(parent) / "data"
+
+
+def views_of(unit: MeasuredUnit) -> tuple[list[View], str]:
+    """Make a unit's scene or drawing in a temporary folder; return its views and the renderer."""
+    with _data_folder() as folder:
+        if isinstance(unit, SceneUnit):
+            return _scene_views(unit, folder)
+        return [_drawing_view(unit, folder)], ""
 
 
 def run_unit(unit: Unit) -> UnitResult:
-    """Make, measure and match one unit in a temporary folder that is gone afterwards."""
-    with TemporaryDirectory(prefix="rockshape-") as parent:
-        folder = Path(parent) / "data"
-        if isinstance(unit, SceneUnit):
-            return _run_scene(unit, folder)
-        return _run_drawing(unit, folder)
+    """Make, measure (or segment) and match one unit."""
+    if isinstance(unit, SegmentationUnit):
+        with _data_folder() as folder:
+            return UnitResult(*run_scene(unit.experiment, unit.scene, folder))
+    views, backend = views_of(unit)
+    measured = [_measure_view(view, unit) for view in views]
+    return UnitResult(
+        records=pd.concat([records for records, _ in measured], ignore_index=True),
+        pictures=tuple(picture for _, picture in measured if picture is not None),
+        backend=backend,
+    )

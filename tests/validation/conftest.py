@@ -2,11 +2,13 @@
 
 from collections.abc import Iterator
 
+import msgspec
 import numpy as np
 import pandas as pd
 import pytest
 
-from validation.claims import SHAPES_CLAIMS, YARD_CLAIMS
+from validation.claims import Claim, all_claims
+from validation.scores import Key
 from validation.suite import ShapesExperiment, Suite, YardExperiment, load_suite
 
 MEASURES = (
@@ -33,7 +35,9 @@ def _rows(
         [
             place
             | measured
-            | {"view": view, "instance": instance, "rock": instance + 1}
+            | {"view": view, "method": "paper", "instance": instance, "rock": instance + 1}
+            | {"row": 100.0 * instance, "col": 50.0, "truth_row": 100.0 * instance}
+            | {"truth_col": 50.5, "axis_a_m": 0.2, "truth_axis_a_m": 0.2}
             | {name: float(values[instance]) for name, values in truths.items()}
             | {measure: float(rng.uniform(0.1, 1.0)) for measure in MEASURES}
             for view in range(views)
@@ -80,25 +84,26 @@ def fabricate(suite: Suite, *, rng: np.random.Generator) -> pd.DataFrame:
 
 def ranking_names(suite: Suite) -> list[str]:
     """Return the names of the scores that hold an order against the truth."""
-    names: list[str] = []
-    for experiment in suite.experiments:
-        if isinstance(experiment, YardExperiment):
-            claims = [claim for varied in experiment.varied for claim in YARD_CLAIMS[varied]]
-            keys = ("tau", "pairs_across")
-            names.extend(f"{experiment.name}.{c.measure}.{key}" for c in claims for key in keys)
-        else:
-            names.extend(
-                f"{experiment.name}.{series}.{claim.measure}.tau"
-                for series in experiment.series
-                for claim in SHAPES_CLAIMS[series]
-            )
-    return names
+    return [
+        Key(claim.experiment, claim.method, claim.series, claim.measure, statistic).name
+        for claim in all_claims(suite)
+        for statistic in (("tau",) if claim.series else ("tau", "pairs_across"))
+    ]
 
 
 @pytest.fixture(scope="session")
 def suite() -> Suite:
-    """The suite `ci`."""
-    return load_suite("ci")
+    """The suite `ci` with the paper's method alone."""
+    whole = load_suite("ci")
+    experiments = tuple(msgspec.structs.replace(e, methods=("paper",)) for e in whole.experiments)
+    gates = tuple(g for g in whole.gates if ".robust." not in g.score)
+    return msgspec.structs.replace(whole, experiments=experiments, gates=gates)
+
+
+@pytest.fixture(scope="session")
+def claims(suite) -> tuple[Claim, ...]:
+    """The suite's claims."""
+    return all_claims(suite)
 
 
 @pytest.fixture(scope="session")

@@ -6,7 +6,9 @@ import pandas as pd
 import pytest
 
 from rockshape.cli import main
+from rockshape.measures import METHODS
 from synth.render import choice
+from validation.report.scores_json import FORMAT
 from validation.suite import load_suite
 from validation.units import SceneUnit, describe, units_of
 
@@ -89,14 +91,16 @@ def test_the_records_hold_truth_and_measures_of_every_rock(runs) -> None:
     folder, _, _ = runs
     records = pd.read_parquet(folder / "one" / "results.parquet")
     rocks = records[(records["kind"] == "yard") & (records["status"] != "extra")]
-    assert len(rocks) == 2 * 2
+    assert len(rocks) == 2 * 2 * len(METHODS)  # rocks, views
     assert rocks["truth_maximum_projection_sphericity"].between(0, 1).all()
     found = rocks[rocks["status"] == "matched"]
-    assert len(found) == 4
+    assert len(found) == len(rocks)
     assert (found["iou"] > 0.8).all()  # one pixel round a rock of 60 px on clean range
-    assert found["ellipsoid_error_m2"].notna().all()
+    paper, robust = (found[found["method"] == name] for name in ("paper", "robust"))
+    assert paper["ellipsoid_error_m2"].notna().all()
+    assert robust["ellipsoid_error"].notna().all()
     shapes = records[records["kind"] == "shapes"]
-    assert len(shapes) == 2 * 4
+    assert len(shapes) == 2 * 4 * len(METHODS)  # series, shapes
     assert (shapes["iou"] == 1.0).all()
     assert shapes["reason"].eq("no range").all()
 
@@ -130,6 +134,22 @@ def test_bad_arguments_are_one_line_and_status_2(tmp_path, suite_path, capsys) -
     wrong.write_text(BAD_GATE.replace("tau", "tao"), encoding="utf-8")
     assert "tao" in _refused([*suite, *out, "--gates", str(wrong)], capsys)
     assert not (tmp_path / "out").exists()
+
+
+def test_odd_folders_are_refused_before_any_work(tmp_path, suite_path, capsys, monkeypatch) -> None:
+    monkeypatch.setattr("validation.cli.run_suite", None)
+    suite = ["--suite", str(suite_path), "--out"]
+    nowhere, file = tmp_path / "nowhere", tmp_path / "file"
+    nowhere.symlink_to(tmp_path / "absent")
+    file.write_text("mine", encoding="utf-8")
+    earlier = tmp_path / "earlier"
+    (earlier / "index.html").mkdir(parents=True)
+    (earlier / "scores.json").write_text(json.dumps({"format": FORMAT}), encoding="utf-8")
+    assert "link to nowhere" in _refused([*suite, str(nowhere)], capsys)
+    assert "the file" in _refused([*suite, str(file)], capsys)
+    assert "place for a folder" in _refused([*suite, str(file / "within")], capsys)
+    assert "index.html" in _refused([*suite, str(earlier)], capsys)
+    assert not (tmp_path / "absent").exists()
 
 
 def test_a_missing_renderer_is_one_line_and_status_3(

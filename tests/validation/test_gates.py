@@ -6,7 +6,7 @@ import msgspec
 import pytest
 
 from validation.errors import InputError
-from validation.gates import Gate, check_names, evaluate
+from validation.gates import Found, Gate, check_names, evaluate
 
 LEAST = Gate(score="a.tau", at_least=0.5, reason="r")
 MOST = Gate(score="a.cv", at_most=0.2, reason="r")
@@ -24,7 +24,7 @@ MOST = Gate(score="a.cv", at_most=0.2, reason="r")
     ],
 )
 def test_bounds(gate, value, passed) -> None:
-    (result,) = evaluate([gate], {gate.score: value})
+    (result,) = evaluate([gate], {gate.score: Found(value)})
     assert result.passed is passed
 
 
@@ -52,3 +52,33 @@ def test_exactly_one_finite_bound(bounds) -> None:
 def test_a_gate_needs_a_reason() -> None:
     with pytest.raises(msgspec.ValidationError, match="reason"):
         msgspec.convert({"score": "a", "at_least": 1.0, "reason": ""}, Gate)
+
+
+@pytest.mark.parametrize(
+    ("bound", "end", "passed"),
+    [
+        ({"at_least": 0.5}, "value", True),
+        ({"at_least": 0.5}, "low", False),  # not sure to reach it
+        ({"at_least": 0.5}, "high", True),
+        ({"at_least": 0.7}, "high", True),  # not surely below it
+        ({"at_least": 0.9}, "high", False),
+        ({"at_most": 0.7}, "high", False),  # not sure to stay under it
+        ({"at_most": 0.7}, "low", True),
+    ],
+)
+def test_the_end_that_is_named_must_clear_the_bound(bound, end, passed) -> None:
+    gate = Gate(score="a", reason="r", end=end, **bound)
+    (result,) = evaluate([gate], {"a": Found(0.6, 0.4, 0.8)})
+    assert result.passed is passed
+
+
+@pytest.mark.parametrize("end", ["low", "high"])
+@pytest.mark.parametrize("bound", [{"at_least": -9.0}, {"at_most": 9.0}])
+def test_an_end_that_does_not_exist_never_passes(bound, end) -> None:
+    (result,) = evaluate([Gate(score="a", reason="r", end=end, **bound)], {"a": Found(0.6)})
+    assert result.passed is False
+
+
+def test_no_other_end() -> None:
+    with pytest.raises(msgspec.ValidationError, match="end"):
+        msgspec.convert({"score": "a", "at_least": 1, "reason": "r", "end": "middle"}, Gate)

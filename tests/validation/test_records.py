@@ -9,6 +9,7 @@ import pytest
 
 from rockshape.observation import Observation
 from rockshape.pipeline import measure
+from rockshape.table import to_frame
 from validation.errors import InputError
 from validation.records import Place, join
 from validation.truth import (
@@ -18,7 +19,7 @@ from validation.truth import (
     rock_columns,
 )
 
-PLACE = Place("yard", "yard", "", 0, 10000, 2)
+PLACE = Place("yard", "yard", "", 0, 10000, 2, "paper")
 
 
 def discs(*centres: tuple[int, int]) -> np.ndarray:
@@ -35,7 +36,7 @@ def test_every_rock_has_one_row() -> None:
     measured = discs((60, 140), (20, 21), (60, 60))  # the third, the first, and one that is none
     measurement = measure(Observation(image=np.zeros((80, 160), np.float32)), labels=measured)
     truth = pd.DataFrame({"instance": [0, 1, 2], "truth_roundness": 1.0, "eligible": True})
-    rows = join(PLACE, truth, true, measurement, min_iou=0.5)
+    rows = join(PLACE, truth, true, measurement.labels, to_frame(measurement), min_iou=0.5)
     assert rows["status"].to_list() == ["matched", "missed", "matched", "extra"]
     assert rows["rock"].fillna(0).to_list() == [2, 0, 1, 3]
     assert rows["instance"].fillna(-1).to_list() == [0, 1, 2, -1]
@@ -44,6 +45,7 @@ def test_every_rock_has_one_row() -> None:
     assert rows["iou"][2] == 1.0
     assert np.isfinite(rows["axis_ratio"]).to_list() == [True, False, True, True]
     assert (rows["view"] == 2).all()
+    assert (rows["method"] == "paper").all()
 
 
 def test_an_empty_measurement_misses_all() -> None:
@@ -51,7 +53,9 @@ def test_an_empty_measurement_misses_all() -> None:
         Observation(image=np.zeros((80, 160), np.float32)), labels=np.zeros((80, 160), np.int32)
     )
     truth = pd.DataFrame({"instance": [0], "eligible": True})
-    rows = join(PLACE, truth, discs((20, 20)), measurement, min_iou=0.5)
+    rows = join(
+        PLACE, truth, discs((20, 20)), measurement.labels, to_frame(measurement), min_iou=0.5
+    )
     assert rows["status"].to_list() == ["missed"]
     assert rows["angularity_2d_deg"].isna().all()
 

@@ -29,12 +29,12 @@ def picture() -> Picture:
     labels = np.zeros((60, 80), np.int32)
     labels[20:40, 30:60] = 1
     overlay = np.full((120, 160, 3), 90, np.uint8)
-    return Picture(Place("yard", "yard", "", 0, 10000, 0), *compress(overlay, labels))
+    return Picture(Place("yard", "yard", "", 0, 10000, 0, "paper"), *compress(overlay, labels))
 
 
 @pytest.fixture(scope="module", params=["noise", "oracle"])
-def run(request, suite, noise):
-    records = oracle(noise) if request.param == "oracle" else noise
+def run(request, suite, claims, noise):
+    records = oracle(noise, claims) if request.param == "oracle" else noise
     return assess(suite, suite.gates, [UnitResult(records, (picture(),), "embree")])
 
 
@@ -185,6 +185,7 @@ def test_ranks_do_not_shift_for_a_missing_rock() -> None:
     scene = pd.DataFrame(
         {
             "view": [0, 0, 0, 1, 1, 1],
+            "method": "paper",
             "instance": [0, 1, 2, 0, 1, 2],
             "rock": [4, 5, 6, 1, 2, 3],
             "status": "matched",
@@ -193,7 +194,7 @@ def test_ranks_do_not_shift_for_a_missing_rock() -> None:
             "angularity_2d_deg": [9.0, 5.0, 7.0, 9.0, np.nan, 1.0],
         }
     )
-    table = rank_table(scene, Claim("angularity_2d_deg", "truth_angularity"))
+    table = rank_table(scene, Claim("yard", "", "paper", "angularity_2d_deg", "truth_angularity"))
     assert [row.instance for row in table.rows] == [0, 1, 2]
     assert [cell.rock for cell in table.rows[0].cells] == [4, 1]
     assert [[cell.off for cell in row.cells] for row in table.rows] == [[0, 0], [1, None], [1, 0]]

@@ -8,12 +8,18 @@ import pytest
 
 from validation.gates import Gate, evaluate
 from validation.oracle import mixed, oracle, shuffled
-from validation.scores import definitions, score_records, score_values
+from validation.scores import definitions, gate_scores, score_records, score_values
 from validation.scores.shapes import gap_shares
 
 
-def test_the_oracle_scores_one(suite, noise, ranking) -> None:
-    values = score_values(suite, oracle(noise))
+def held(suite, records):
+    """Hold records to the suite's gates but those on a level: the truth has no degrees."""
+    gates = [gate for gate in suite.gates if not gate.score.endswith(".level")]
+    return evaluate(gates, gate_scores(suite, gates, records))
+
+
+def test_the_oracle_scores_one(suite, claims, noise, ranking) -> None:
+    values = score_values(suite, oracle(noise, claims))
     assert {name: values[name] for name in ranking} == dict.fromkeys(ranking, 1.0)
     assert (values["yard.recall"], values["yard.precision"], values["yard.mean_iou"]) == (1, 1, 1)
     assert values["yard.angularity_2d_deg.kendall_w"] == 1.0
@@ -28,23 +34,27 @@ def test_the_oracle_scores_one(suite, noise, ranking) -> None:
     )
 
 
-def test_the_oracle_passes_every_gate_of_the_suite(suite, noise) -> None:
-    results = evaluate(suite.gates, score_values(suite, oracle(noise)))
+def test_the_oracle_passes_every_gate_of_the_suite(suite, claims, noise) -> None:
+    results = held(suite, oracle(noise, claims))
     assert [r.gate.score for r in results if not r.passed] == []
 
 
-def test_shuffled_truth_fails_every_gate_on_the_order_against_it(suite, noise, ranking) -> None:
-    fed = shuffled(noise, rng=np.random.default_rng(0))
-    results = evaluate(suite.gates, score_values(suite, fed))
+def test_shuffled_truth_fails_every_gate_on_the_order_against_it(
+    suite, claims, noise, ranking
+) -> None:
+    fed = shuffled(noise, claims, rng=np.random.default_rng(0))
+    results = held(suite, fed)
     judged = [r for r in results if r.gate.score in ranking]
     assert judged
     assert [r.gate.score for r in judged if r.passed] == []
 
 
-def test_values_dealt_out_in_each_view_fail_every_gate_on_how_they_hold(suite, noise) -> None:
-    perfect = oracle(noise)
-    fed = mixed(perfect, rng=np.random.default_rng(0))
-    results = evaluate(suite.gates, score_values(suite, fed))
+def test_values_dealt_out_in_each_view_fail_every_gate_on_how_they_hold(
+    suite, claims, noise
+) -> None:
+    perfect = oracle(noise, claims)
+    fed = mixed(perfect, claims, rng=np.random.default_rng(0))
+    results = held(suite, fed)
     judged = [r for r in results if r.gate.score.endswith((".cv", ".tau_views", ".tau"))]
     assert any(r.gate.score.endswith(".cv") for r in judged)
     assert [r.gate.score for r in judged if r.passed] == []
@@ -53,8 +63,8 @@ def test_values_dealt_out_in_each_view_fail_every_gate_on_how_they_hold(suite, n
     assert fed["iou"].equals(perfect["iou"])
 
 
-def test_shuffling_leaves_the_agreement_of_the_views(suite, noise) -> None:
-    values = score_values(suite, shuffled(noise, rng=np.random.default_rng(0)))
+def test_shuffling_leaves_the_agreement_of_the_views(suite, claims, noise) -> None:
+    values = score_values(suite, shuffled(noise, claims, rng=np.random.default_rng(0)))
     assert values["yard.angularity_2d_deg.kendall_w"] == 1.0
 
 
@@ -62,7 +72,7 @@ def test_noise_fails_a_gate_on_order_for_every_measure(suite, noise, ranking) ->
     # 240 and more pairs a measure within views: τ_b of noise has a standard deviation
     # below 0.15 even with 3 pairs clustered to a rock, so that 0.6 is four of them away.
     gates = [Gate(score=n, at_least=0.6, reason="r") for n in ranking if "yard" in n]
-    assert not any(r.passed for r in evaluate(gates, score_values(suite, noise)))
+    assert not any(r.passed for r in evaluate(gates, gate_scores(suite, gates, noise)))
 
 
 def test_every_score_has_a_count_and_an_ordered_interval(suite, noise) -> None:
@@ -82,8 +92,8 @@ def test_intervals_are_the_same_every_time(suite, noise) -> None:
     assert repr(first) == repr(second)
 
 
-def test_missed_rocks_lower_recall_and_leave_the_order(suite, noise) -> None:
-    fed = oracle(noise)
+def test_missed_rocks_lower_recall_and_leave_the_order(suite, claims, noise) -> None:
+    fed = oracle(noise, claims)
     lost = (fed["experiment"] == "yard") & (fed["view"] == 0) & (fed["instance"] == 2)
     fed.loc[lost, "status"] = "missed"
     fed.loc[lost, ["iou", "angularity_2d_deg"]] = np.nan
@@ -92,8 +102,8 @@ def test_missed_rocks_lower_recall_and_leave_the_order(suite, noise) -> None:
     assert values["yard.angularity_2d_deg.tau"] == 1.0
 
 
-def test_rocks_not_in_plain_view_do_not_count(suite, noise) -> None:
-    fed = oracle(noise)
+def test_rocks_not_in_plain_view_do_not_count(suite, claims, noise) -> None:
+    fed = oracle(noise, claims)
     hidden = (fed["experiment"] == "yard") & (fed["instance"] == 2)
     fed.loc[hidden, "eligible"] = False
     fed.loc[hidden, "angularity_2d_deg"] = -1.0
@@ -102,8 +112,8 @@ def test_rocks_not_in_plain_view_do_not_count(suite, noise) -> None:
     assert (values["yard.recall"], values["yard.angularity_2d_deg.tau"]) == (1.0, 1.0)
 
 
-def test_extra_rocks_lower_precision_alone(suite, noise) -> None:
-    fed = oracle(noise)
+def test_extra_rocks_lower_precision_alone(suite, claims, noise) -> None:
+    fed = oracle(noise, claims)
     extra = fed[fed["experiment"] == "yard"].head(6).assign(status="extra", eligible=False)
     rows = len(fed[fed["experiment"] == "yard"])
     values = score_values(suite, pd.concat([fed, extra], ignore_index=True))

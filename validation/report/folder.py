@@ -11,12 +11,17 @@ from validation.report.page import page_html
 from validation.report.scores_json import FORMAT, scores_json
 from validation.report.summary import summary_markdown
 from validation.run import Run
+from validation.store import FOLDER, is_store
 
 SCORES = "scores.json"
 PAGE = "index.html"
+_FILES = (PAGE, SCORES, "results.parquet", "junit.xml", "summary.md")
 
 
 def _is_run(folder: Path) -> bool:
+    """Tell whether a folder holds a run, or one that was broken off: unit results alone."""
+    if [path.name for path in folder.iterdir()] == [FOLDER] and is_store(folder / FOLDER):
+        return True
     try:
         held = json.loads((folder / SCORES).read_text(encoding="utf-8"))
     except (OSError, ValueError):
@@ -30,6 +35,8 @@ def check_target(out: Path) -> None:
     Raises:
         InputError: a file, a folder with other things in it, or a place that cannot be written.
     """
+    if out.is_symlink() and not out.exists():
+        raise InputError(f"--out: expected a folder, found a link to nowhere: {out}")
     if out.exists() and not out.is_dir():
         raise InputError(f"--out: expected a folder, found the file {out}")
     if out.is_dir() and any(out.iterdir()) and not _is_run(out):
@@ -37,14 +44,24 @@ def check_target(out: Path) -> None:
             f"--out: expected an empty folder or an earlier run (with its {SCORES}), "
             f"found other files in {out}"
         )
+    folder = next((out / name for name in _FILES if (out / name).is_dir()), None)
+    if folder is not None:
+        raise InputError(f"--out: expected a file or none, found the folder {folder}")
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
+        with _beside(out):
+            pass
     except OSError as error:
         raise InputError(
             f"--out: expected a place for a folder, found {error.strerror}: {out.parent}"
         ) from error
-    if not os.access(out if out.is_dir() else out.parent, os.W_OK):
+    if out.is_dir() and not os.access(out, os.W_OK):
         raise InputError(f"--out: expected a folder that can be written, found {out}")
+
+
+def _beside(out: Path) -> TemporaryDirectory[str]:
+    """Return a folder for drafts on the disk of the run's own."""
+    return TemporaryDirectory(prefix=f".{out.name}-", dir=out.parent)
 
 
 def write_run(run: Run, out: Path, *, command: str, seconds: float) -> None:
@@ -54,7 +71,7 @@ def write_run(run: Run, out: Path, *, command: str, seconds: float) -> None:
     are replaced one by one, the page last; what else lies there stays.
     """
     check_target(out)
-    with TemporaryDirectory(prefix=f".{out.name}-", dir=out.parent) as staging:
+    with _beside(out) as staging:
         whole = Path(staging) / "run"
         whole.mkdir()
         run.records.to_parquet(whole / "results.parquet", index=False)

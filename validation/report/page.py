@@ -6,16 +6,17 @@ from importlib.resources import files
 from jinja2 import Environment, StrictUndefined
 from markupsafe import Markup, escape
 
-from validation.naming import title_of
+from validation.naming import REFERENCE, title_of
 from validation.paper import CONSISTENCY_TABLES
 from validation.report.charts import view_key
+from validation.report.leaderboard import leaderboards
 from validation.report.paper import paper_values
 from validation.report.provenance import seeds, versions
-from validation.report.sections import shapes_section, yard_section
+from validation.report.sections import segmentation_section, shapes_section, yard_section
 from validation.report.words import interval, number
 from validation.run import Run
 from validation.scores.agreement import STATISTICS
-from validation.suite import ShapesExperiment, YardExperiment
+from validation.suite import SegmentationExperiment, ShapesExperiment, YardExperiment
 
 
 def _breakable(name: str) -> Markup:
@@ -61,9 +62,19 @@ def page_html(run: Run, *, command: str, seconds: float) -> str:
         passed=sum(gate.passed for gate in run.gates),
         scores={score.name: score for score in run.scores},
         yards=[yard_section(run, experiment) for experiment in yards],
-        beside={e.name: _beside_paper(run, e) for e in yards if "angularity" in e.varied},
+        beside={
+            e.name: _beside_paper(run, e)
+            for e in yards
+            if "angularity" in e.varied and REFERENCE in e.methods
+        },
+        segmentations=[
+            segmentation_section(run, e)
+            for e in run.suite.experiments
+            if isinstance(e, SegmentationExperiment)
+        ],
         shapes=[shapes_section(run, experiment) for experiment in shapes],
         tables=CONSISTENCY_TABLES,
+        boards=leaderboards(run),
         command=command,
         minutes=f"{seconds:.0f} s",
         versions=versions(),

@@ -51,7 +51,7 @@ def rank_table(scene: pd.DataFrame, claim: Claim) -> RankTable:
     In a view, the true ranks are taken among the rocks measured there, so that a missing rock does
     not shift the others.
     """
-    rocks = scene[scene["status"] != "extra"]
+    rocks = scene[(scene["status"] != "extra") & (scene["method"] == claim.method)]
     truth = rocks.drop_duplicates("instance").set_index("instance")[claim.truth].dropna()
     truth = truth.sort_values(ascending=False, kind="stable")
     true_values = truth.to_numpy(dtype=np.float64)

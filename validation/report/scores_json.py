@@ -3,13 +3,15 @@
 import json
 import math
 
+import msgspec
+
 from validation.gates import GateResult
 from validation.report.paper import paper_values
 from validation.report.provenance import seeds, versions
 from validation.run import Run
 from validation.scores import Score
 
-FORMAT = "rockshape validation run 1"
+FORMAT = "rockshape validation run 2"
 
 
 def _number(value: float) -> float | None:
@@ -19,11 +21,17 @@ def _number(value: float) -> float | None:
 def _score(score: Score) -> dict[str, object]:
     return {
         "name": score.name,
+        "experiment": score.key.experiment,
+        "method": score.key.method,
+        "series": score.key.series,
+        "measure": score.key.measure,
+        "statistic": score.key.statistic,
         "title": score.title,
         "value": _number(score.value),
         "unit": score.unit,
         "count": score.count,
         "counted": score.counted,
+        "better": score.better,
         "low": _number(score.low),
         "high": _number(score.high),
     }
@@ -34,6 +42,7 @@ def _gate(result: GateResult) -> dict[str, object]:
         "score": result.gate.score,
         "at_least": result.gate.at_least,
         "at_most": result.gate.at_most,
+        "end": result.gate.end,
         "reason": result.gate.reason,
         "found": _number(result.found),
         "passed": result.passed,
@@ -45,6 +54,7 @@ def scores_json(run: Run) -> str:
     document = {
         "format": FORMAT,
         "suite": run.suite.name,
+        "spec": msgspec.to_builtins(run.suite),
         "passed": run.passed,
         "backend": run.backend,
         "seeds": seeds(run),

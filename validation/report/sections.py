@@ -7,20 +7,21 @@ import numpy as np
 import pandas as pd
 from markupsafe import Markup
 
-from validation.claims import SHAPES_CLAIMS, YARD_CLAIMS, Claim
-from validation.naming import title_of, unit_of
+from validation.claims import Claim, claims_of
+from validation.naming import REFERENCE, title_of_claim, unit_of
 from validation.paper.prose import FIGURES, Quoted
-from validation.pictures import Picture
 from validation.report.charts import Points, scatter
 from validation.report.ranks import RankTable, rank_table
 from validation.report.words import number
-from validation.run import Run
+from validation.run import AnyPicture, Run
 from validation.scores.blocks import blocks_of
+from validation.scores.score import Key
 from validation.scores.shapes import gap_shares
-from validation.suite import ShapesExperiment, YardExperiment
+from validation.suite import SegmentationExperiment, ShapesExperiment, YardExperiment
 
 _TRUTH_TITLES = {
     "truth_angularity": "true angularity, 1 − roundness",
+    "truth_roundness": "true roundness",
     "truth_maximum_projection_sphericity": "true maximum projection sphericity",
 }
 MAX_PICTURE_BYTES = 3_000_000  # base64 makes them 4 MB; the page stays under 5
@@ -42,7 +43,7 @@ class YardSection:
     """What the page shows of an experiment of rocks."""
 
     experiment: YardExperiment
-    charts: tuple[tuple[str, Markup], ...]  # title and picture of each measure
+    charts: tuple[tuple[str, Markup, str], ...]  # of each claim: title, picture, name of its τ
     views: tuple[int, ...]
     ranks: tuple[tuple[str, str, RankTable], ...]  # measure, unit, table
     pictures: tuple[ShownPicture, ...]
@@ -61,7 +62,7 @@ class SeriesRow:
     values: tuple[float, ...]
     gaps: tuple[float, ...]  # shares of the whole way
     true_gaps: tuple[float, ...]
-    quoted: Quoted
+    quoted: Quoted | None  # None where the paper has no such number
 
 
 @dataclass(frozen=True)
@@ -74,16 +75,19 @@ class ShapesSection:
 
 
 def _own_pictures(run: Run, name: str) -> tuple[ShownPicture, ...]:
-    spent = sum(len(p.jpeg) for p in run.pictures)
+    spent = sum(p.size_bytes for p in run.pictures)
     share = min(1.0, MAX_PICTURE_BYTES / spent) if spent else 1.0
     own = [p for p in run.pictures if p.place.experiment == name]
     return tuple(_shown(picture) for picture in own[: max(1, int(share * len(own)))])
 
 
-def _shown(picture: Picture) -> ShownPicture:
+def _shown(picture: AnyPicture) -> ShownPicture:
     place = picture.place
     code = base64.b64encode(picture.jpeg).decode("ascii")
-    if place.kind == "shapes":
+    if place.kind == "segmentation":
+        caption = f"{place.series}, seed {place.seed}, view {place.view + 1}"
+        text = f"Rocks of seed {place.seed} by {place.series}: true borders blue, found yellow"
+    elif place.kind == "shapes":
         caption = f"series {place.series}, seed {place.seed}"
         text = f"Shapes of the series {place.series} with their outlines and fitted ellipses"
     else:
@@ -100,8 +104,8 @@ def _shown(picture: Picture) -> ShownPicture:
 
 def _chart(rocks: pd.DataFrame, claim: Claim) -> Markup:
     unit = unit_of(claim.measure)
-    title = title_of(claim.measure) + (f", {unit}" if unit else "")
-    shown = rocks[rocks["eligible"].astype(bool)]
+    title = title_of_claim(claim) + (f", {unit}" if unit else "")
+    shown = rocks[rocks["eligible"].astype(bool) & (rocks["method"] == claim.method)]
     values = shown[claim.measure].to_numpy(dtype=np.float64)
     points = Points(
         x=shown[claim.truth].to_numpy(dtype=np.float64),
@@ -130,44 +134,93 @@ def yard_section(run: Run, experiment: YardExperiment) -> YardSection:
     """Return what the page shows of an experiment of rocks."""
     own = run.records[run.records["experiment"] == experiment.name]
     rocks = own[own["status"] != "extra"]
-    claims = [claim for varied in experiment.varied for claim in YARD_CLAIMS[varied]]
+    claims = claims_of(run.suite, experiment)
     first = own[own["scene"] == 0]
-    shown = rocks[rocks["eligible"].astype(bool)]
+    by_first = own[own["method"] == experiment.methods[0]]
+    true_rocks = by_first[by_first["status"] != "extra"]
+    shown = true_rocks[true_rocks["eligible"].astype(bool)]
     return YardSection(
         experiment=experiment,
-        charts=tuple((title_of(claim.measure), _chart(rocks, claim)) for claim in claims),
+        charts=tuple(
+            (title_of_claim(claim), _chart(rocks, claim), tau_name(claim)) for claim in claims
+        ),
         views=tuple(sorted(int(view) for view in own["view"].unique())),
         ranks=tuple(
-            (title_of(claim.measure), unit_of(claim.measure), rank_table(first, claim))
+            (title_of_claim(claim), unit_of(claim.measure), rank_table(first, claim))
             for claim in claims
         ),
         pictures=_own_pictures(run, experiment.name),
-        rocks=len(rocks[["scene", "instance"]].drop_duplicates()),
+        rocks=len(true_rocks[["scene", "instance"]].drop_duplicates()),
         detected=int((shown["status"] == "matched").sum()),
         eligible=len(shown),
-        extras=int((own["status"] == "extra").sum()),
+        extras=int((by_first["status"] == "extra").sum()),
+    )
+
+
+def tau_name(claim: Claim) -> str:
+    """Return the name of the score that holds a claim's order."""
+    return Key(claim.experiment, claim.method, claim.series, claim.measure, "tau").name
+
+
+@dataclass(frozen=True)
+class SegmentationSection:
+    """What the page shows of an experiment of segmentation."""
+
+    experiment: SegmentationExperiment
+    columns: tuple[str, ...]
+    rows: tuple[tuple[str, tuple[float, ...]], ...]  # way, its scores
+    pictures: tuple[ShownPicture, ...]
+
+
+def segmentation_section(run: Run, experiment: SegmentationExperiment) -> SegmentationSection:
+    """Return what the page shows of an experiment of segmentation: a row for each way."""
+    values = {score.name: score.value for score in run.scores}
+    columns = (
+        "f1",
+        "precision",
+        "recall",
+        "mean_iou",
+        "boundary_px",
+        "splits",
+        "merges",
+        "ground_error",
+    )
+    return SegmentationSection(
+        experiment=experiment,
+        columns=columns,
+        rows=tuple(
+            (
+                way,
+                tuple(
+                    values.get(Key(experiment.name, "", way, "", key).name, np.nan)
+                    for key in columns
+                ),
+            )
+            for way in experiment.series
+        ),
+        pictures=_own_pictures(run, experiment.name),
     )
 
 
 def shapes_section(run: Run, experiment: ShapesExperiment) -> ShapesSection:
     """Return what the page shows of an experiment of shapes."""
     own = run.records[run.records["experiment"] == experiment.name]
+    first = own[own["scene"] == 0]
     rows = []
-    for series in experiment.series:
-        first = own[(own["series"] == series) & (own["scene"] == 0)]
-        for claim in SHAPES_CLAIMS[series]:
-            block = blocks_of(first, claim)[0]
-            values = block.values[0]
-            rows.append(
-                SeriesRow(
-                    title=title_of(claim.measure),
-                    column=claim.measure,
-                    values=tuple(values.tolist()),
-                    gaps=tuple(gap_shares(values).tolist()),
-                    true_gaps=tuple(gap_shares(block.truth).tolist()),
-                    quoted=FIGURES[series, claim.measure],
-                )
+    for claim in claims_of(run.suite, experiment):
+        block = blocks_of(first, claim)[0]
+        values = block.values[0]
+        quoted = FIGURES.get((claim.series, claim.measure))
+        rows.append(
+            SeriesRow(
+                title=title_of_claim(claim),
+                column=claim.measure,
+                values=tuple(values.tolist()),
+                gaps=tuple(gap_shares(values).tolist()),
+                true_gaps=tuple(gap_shares(block.truth).tolist()),
+                quoted=quoted if claim.method == REFERENCE else None,
             )
+        )
     return ShapesSection(
         experiment=experiment, rows=tuple(rows), pictures=_own_pictures(run, experiment.name)
     )

@@ -1,11 +1,18 @@
 """A run in Markdown, short enough for a pull request."""
 
+from validation.gates import Gate
+from validation.report.leaderboard import leaderboard_lines
 from validation.report.words import interval, number
 from validation.run import Run
 
 
 def _cell(text: str) -> str:
     return text.replace("|", "\\|").replace("\n", " ")
+
+
+def _bound(gate: Gate) -> str:
+    end = "" if gate.end == "value" else f" ({gate.end} end)"
+    return f"{gate.relation} {number(gate.bound)}{end}"
 
 
 def summary_markdown(run: Run) -> str:
@@ -22,11 +29,15 @@ def summary_markdown(run: Run) -> str:
         "| --- | --- | --- | --- | --- |",
     ]
     lines += [
-        f"| `{g.gate.score}` | {g.gate.relation} {number(g.gate.bound)} | {number(g.found)} "
+        f"| `{g.gate.score}` | {_bound(g.gate)} | {number(g.found)} "
         f"| {'pass' if g.passed else '**FAIL**'} | {_cell(g.gate.reason)} |"
         for g in run.gates
     ]
+    board = leaderboard_lines(run)
+    lines += ["", "## Leaderboard", *board] if board else []
     lines += [
+        "",
+        "## Scores",
         "",
         "| score | value | 95 % interval | unit | count |",
         "| --- | --- | --- | --- | --- |",
@@ -36,6 +47,9 @@ def summary_markdown(run: Run) -> str:
         f"| {s.count} {s.counted} |"
         for s in run.scores
     ]
-    fed = "; ".join(f"{check.fed}: {len(check.passes)}" for check in run.checks)
-    lines += ["", f"Self-check, gates passed of {len(run.gates)} when fed with … {fed}.", ""]
+    if run.checks:
+        fed = "; ".join(f"{check.fed}: {len(check.passes)}" for check in run.checks)
+        gates = len(run.checks[0].gates)
+        lines += ["", f"Self-check, gates passed of {gates} when fed with … {fed}."]
+    lines.append("")
     return "\n".join(lines)

@@ -4,22 +4,41 @@ from collections.abc import Sequence
 
 import pandas as pd
 
-from validation.scores import shapes, yard
-from validation.scores.score import Definition, Score, estimate
-from validation.suite import Experiment, Suite, YardExperiment
+from validation.claims import claims_of
+from validation.gates import Found, Gate
+from validation.scores import segmentation, shapes, yard
+from validation.scores.score import Definition, Key, Score, estimate
+from validation.suite import Experiment, SegmentationExperiment, Suite, YardExperiment
 
-__all__ = ["Definition", "Score", "definitions", "score_records", "score_values"]
+__all__ = [
+    "Definition",
+    "Key",
+    "Score",
+    "definitions",
+    "gate_scores",
+    "score_names",
+    "score_records",
+    "score_values",
+]
 
 
-def _of_experiment(experiment: Experiment) -> Sequence[Definition]:
+def _of_experiment(suite: Suite, experiment: Experiment) -> Sequence[Definition]:
+    if isinstance(experiment, SegmentationExperiment):
+        return segmentation.definitions(experiment)
+    claims = claims_of(suite, experiment)
     if isinstance(experiment, YardExperiment):
-        return yard.definitions(experiment)
-    return shapes.definitions(experiment)
+        return yard.definitions(experiment, claims)
+    return shapes.definitions(claims)
 
 
 def definitions(suite: Suite) -> tuple[Definition, ...]:
     """Return all scores of a suite; they are known before anything is measured."""
-    return tuple(d for experiment in suite.experiments for d in _of_experiment(experiment))
+    return tuple(d for experiment in suite.experiments for d in _of_experiment(suite, experiment))
+
+
+def score_names(suite: Suite) -> frozenset[str]:
+    """Return the names of all scores of a suite."""
+    return frozenset(definition.name for definition in definitions(suite))
 
 
 def score_records(suite: Suite, records: pd.DataFrame) -> tuple[Score, ...]:
@@ -30,3 +49,18 @@ def score_records(suite: Suite, records: pd.DataFrame) -> tuple[Score, ...]:
 def score_values(suite: Suite, records: pd.DataFrame) -> dict[str, float]:
     """Return the values alone, by name, without the cost of the intervals."""
     return {d.name: d.compute(records).value for d in definitions(suite)}
+
+
+def gate_scores(suite: Suite, gates: Sequence[Gate], records: pd.DataFrame) -> dict[str, Found]:
+    """Return what the gates ask for: values, and the intervals of those that ask for an end."""
+    wanted = {gate.score: False for gate in gates}
+    for gate in gates:
+        wanted[gate.score] |= gate.end != "value"
+    found = {}
+    for definition in definitions(suite):
+        if wanted.get(definition.name):
+            score = estimate(definition, records)
+            found[definition.name] = Found(score.value, score.low, score.high)
+        elif definition.name in wanted:
+            found[definition.name] = Found(definition.compute(records).value)
+    return found

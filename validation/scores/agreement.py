@@ -19,7 +19,7 @@ from validation.agreement import (
     tau_b,
     within_views,
 )
-from validation.scores.score import Estimate
+from validation.scores.score import Better, Estimate
 
 
 @dataclass(frozen=True)
@@ -30,6 +30,7 @@ class Statistic:
     title: str
     unit: str
     counted: str
+    better: Better
     compute: Callable[[Sequence[Block]], Estimate]
 
 
@@ -65,6 +66,7 @@ STATISTICS = (
         "order within a view against the truth (Kendall's τ_b)",
         "1",
         "pairs",
+        "higher",
         lambda blocks: _tau(within_views(blocks)),
     ),
     Statistic(
@@ -72,6 +74,7 @@ STATISTICS = (
         "pairs in the right order across views",
         "share",
         "pairs",
+        "higher",
         lambda blocks: _share(across_views(blocks)),
     ),
     Statistic(
@@ -79,6 +82,7 @@ STATISTICS = (
         "agreement of the views' rankings (Kendall's W)",
         "1",
         "rocks",
+        "higher",
         lambda blocks: Estimate(kendall_w(blocks), _complete_rocks(blocks)),
     ),
     Statistic(
@@ -86,6 +90,7 @@ STATISTICS = (
         "agreement between two views (mean pairwise τ_b)",
         "1",
         "pairs",
+        "higher",
         lambda blocks: _tau(between_views(blocks)),
     ),
     Statistic(
@@ -93,6 +98,7 @@ STATISTICS = (
         "coefficient of variation across views, mean over rocks",
         "1",
         "rocks",
+        "lower",
         lambda blocks: weighted_mean(coefficients_of_variation(blocks)),
     ),
     Statistic(
@@ -100,6 +106,7 @@ STATISTICS = (
         "the same after dividing by each view's mean",
         "1",
         "rocks",
+        "lower",
         lambda blocks: weighted_mean(coefficients_of_variation(divide_by_view_means(blocks))),
     ),
     Statistic(
@@ -107,6 +114,7 @@ STATISTICS = (
         "agreement of values: ICC(2,1) on logs",
         "1",
         "rocks",
+        "higher",
         lambda blocks: Estimate(intraclass_correlation(blocks).icc_2_1, _complete_rocks(blocks)),
     ),
     Statistic(
@@ -114,6 +122,7 @@ STATISTICS = (
         "consistency of values: ICC(3,1) on logs",
         "1",
         "rocks",
+        "higher",
         lambda blocks: Estimate(intraclass_correlation(blocks).icc_3_1, _complete_rocks(blocks)),
     ),
 )

@@ -8,18 +8,32 @@ from validation.claims import Claim
 
 
 def blocks_of(records: pd.DataFrame, claim: Claim) -> tuple[Block, ...]:
-    """Return a block for each scene of the records (of one experiment and one series).
+    """Return a block for each scene of the claim's experiment, series and method.
 
     Only rocks that the view shows well enough (`eligible`) count; a rock that was not found, or
     whose measure is NaN, is NaN. Rocks without the truth in question are left out.
     """
-    true_rows = records[records["status"] != "extra"]
+    own = records[
+        (records["experiment"] == claim.experiment)
+        & (records["series"] == claim.series)
+        & (records["method"] == claim.method)
+    ]
+    rows = own[own["status"] != "extra"].sort_values("scene", kind="stable")
+    scene, view, instance = (
+        rows[name].to_numpy(dtype=np.int64) for name in ("scene", "view", "instance")
+    )
+    measured = rows[claim.measure].to_numpy(dtype=np.float64)
+    value = np.where(rows["eligible"].to_numpy(dtype=bool), measured, np.nan)
+    truth = rows[claim.truth].to_numpy(dtype=np.float64)
+    starts = np.flatnonzero(np.diff(scene, prepend=-1))
     blocks = []
-    for _, scene in true_rows.groupby("scene", sort=True):
-        measured = scene[claim.measure].astype(np.float64).where(scene["eligible"].astype(bool))
-        table = scene.assign(value=measured).pivot(index="view", columns="instance", values="value")
-        truth = scene.drop_duplicates("instance").set_index("instance")[claim.truth]
-        known = truth.reindex(table.columns).to_numpy(dtype=np.float64)
+    for part in np.split(np.arange(scene.size), starts[1:]) if scene.size else ():
+        views, view_index = np.unique(view[part], return_inverse=True)
+        rocks, rock_index = np.unique(instance[part], return_inverse=True)
+        table = np.full((views.size, rocks.size), np.nan)
+        table[view_index, rock_index] = value[part]
+        known = np.empty(rocks.size)
+        known[rock_index] = truth[part]
         keep = np.isfinite(known)
-        blocks.append(Block(values=table.to_numpy(dtype=np.float64)[:, keep], truth=known[keep]))
+        blocks.append(Block(values=table[:, keep], truth=known[keep]))
     return tuple(blocks)

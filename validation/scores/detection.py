@@ -6,12 +6,18 @@ from numpy.typing import NDArray
 
 from validation.scores.score import Estimate
 
+_ROCK = ["scene", "instance"]
 
-def _by_rock(records: pd.DataFrame) -> tuple[NDArray[np.intp], int]:
-    """Return each row's rock number among all rocks of all scenes, and how many there are."""
-    groups = records.groupby(["scene", "instance"], sort=True)
-    number: NDArray[np.intp] = np.asarray(groups.ngroup(), dtype=np.intp)
-    return number, int(groups.ngroups)
+
+def rock_numbers(shown: pd.DataFrame, records: pd.DataFrame) -> tuple[NDArray[np.intp], int]:
+    """Return each shown row's rock number among all true rocks, and how many those are.
+
+    All count, shown or not, so that two runs of one suite number the same rocks alike.
+    """
+    rocks = pd.MultiIndex.from_frame(records.loc[records["status"] != "extra", _ROCK])
+    every = rocks.unique().sort_values()
+    number = every.get_indexer(pd.MultiIndex.from_frame(shown[_ROCK]))
+    return number.astype(np.intp), len(every)
 
 
 def _share(good: NDArray[np.float64], rock: NDArray[np.intp], rocks: int) -> Estimate:
@@ -30,7 +36,7 @@ def recall(records: pd.DataFrame) -> Estimate:
     """Return the share of rocks in plain view that were found, over all views."""
     shown = records[(records["status"] != "extra") & records["eligible"].astype(bool)]
     found = np.asarray(shown["status"] == "matched", dtype=np.float64)
-    return _share(found, *_by_rock(shown))
+    return _share(found, *rock_numbers(shown, records))
 
 
 def precision(records: pd.DataFrame) -> Estimate:
@@ -43,4 +49,4 @@ def precision(records: pd.DataFrame) -> Estimate:
 def mean_iou(records: pd.DataFrame) -> Estimate:
     """Return the mean intersection over union of the found rocks' masks."""
     matched = records[(records["status"] == "matched") & records["eligible"].astype(bool)]
-    return _share(matched["iou"].to_numpy(dtype=np.float64), *_by_rock(matched))
+    return _share(matched["iou"].to_numpy(dtype=np.float64), *rock_numbers(matched, records))

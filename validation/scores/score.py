@@ -3,28 +3,56 @@
 import zlib
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
 from validation.agreement.interval import bootstrap_interval
+from validation.naming import REFERENCE
 
 BOOTSTRAP_SEED = 20020309
+
+Better = Literal["higher", "lower", "neither"]
+
+
+@dataclass(frozen=True)
+class Key:
+    """What a score is a score of; empty where it has no such part."""
+
+    experiment: str
+    method: str
+    series: str
+    measure: str
+    statistic: str
+
+    @property
+    def name(self) -> str:
+        """The parts joined by dots; the paper's method is left out."""
+        method = "" if self.method == REFERENCE else self.method
+        parts = (self.experiment, method, self.series, self.measure, self.statistic)
+        return ".".join(part for part in parts if part)
 
 
 @dataclass(frozen=True)
 class Score:
     """A number with its unit, what it was counted over, and its 95 % interval (NaN: none)."""
 
-    name: str
+    key: Key
     title: str
     value: float
     unit: str
     count: int
     counted: str
+    better: Better
     low: float
     high: float
+
+    @property
+    def name(self) -> str:
+        """The score's name."""
+        return self.key.name
 
 
 @dataclass(frozen=True)
@@ -41,27 +69,38 @@ class Estimate:
 class Definition:
     """How a score is named and computed from records; `compute` has no other input."""
 
-    name: str
+    key: Key
     title: str
     unit: str
     counted: str
+    better: Better
     compute: Callable[[pd.DataFrame], Estimate]
+
+    @property
+    def name(self) -> str:
+        """The score's name."""
+        return self.key.name
+
+
+def score_rng(name: str) -> np.random.Generator:
+    """Return the draws of a score's bootstrap, which depend on its name alone."""
+    return np.random.default_rng([BOOTSTRAP_SEED, zlib.crc32(name.encode())])
 
 
 def estimate(definition: Definition, records: pd.DataFrame) -> Score:
-    """Compute a score; the interval's draws depend on the score's name alone."""
+    """Compute a score with its interval."""
     found = definition.compute(records)
     low = high = float("nan")
     if found.weighted is not None:
-        rng = np.random.default_rng([BOOTSTRAP_SEED, zlib.crc32(definition.name.encode())])
-        low, high = bootstrap_interval(found.weighted, found.rocks, rng=rng)
+        low, high = bootstrap_interval(found.weighted, found.rocks, rng=score_rng(definition.name))
     return Score(
-        name=definition.name,
+        key=definition.key,
         title=definition.title,
         value=found.value,
         unit=definition.unit,
         count=found.count,
         counted=definition.counted,
+        better=definition.better,
         low=low,
         high=high,
     )

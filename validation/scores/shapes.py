@@ -1,17 +1,17 @@
 """Scores of hand-drawn shapes in series, as in the paper's figures 8 and 9."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
 from validation.agreement import Block, tau_b, within_views
-from validation.claims import SHAPES_CLAIMS, Claim
-from validation.naming import title_of
+from validation.claims import Claim
+from validation.naming import title_of_claim, unit_of
+from validation.scores.agreement import weighted_mean
 from validation.scores.blocks import blocks_of
-from validation.scores.score import Definition, Estimate
-from validation.suite import ShapesExperiment
+from validation.scores.score import Better, Definition, Estimate, Key
 
 
 def gap_shares(values: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -51,46 +51,50 @@ def _error(blocks: Sequence[Block]) -> Estimate:
     return Estimate(value, int(errors.size))
 
 
-_Statistic = tuple[str, str, str, str, Callable[[Sequence[Block]], Estimate]]
-_ORDER: _Statistic = ("tau", "order of a drawing's shapes (Kendall's τ_b)", "1", "pairs", _tau)
-_GAPS: _Statistic = (
-    "gap_error",
-    "gaps between neighbours, RMS from the true gaps",
-    "share of the way",
-    "gaps",
-    _gap_error,
+def _level(blocks: Sequence[Block]) -> Estimate:
+    return weighted_mean(np.concatenate([np.empty(0), *(_series(block) for block in blocks)]))
+
+
+@dataclass(frozen=True)
+class _Statistic:
+    key: str
+    title: str
+    unit: str  # empty for the measure's own
+    counted: str
+    better: Better
+    compute: Callable[[Sequence[Block]], Estimate]
+
+
+_ANY = (
+    _Statistic("tau", "order of a drawing's shapes (Kendall's τ_b)", "1", "pairs", "higher", _tau),
+    _Statistic(
+        "gap_error",
+        "gaps between neighbours, RMS from the true gaps",
+        "share of the way",
+        "gaps",
+        "lower",
+        _gap_error,
+    ),
+    _Statistic("level", "mean value", "", "shapes", "neither", _level),
 )
-_ERROR: _Statistic = ("error", "RMS difference from the true ratio", "1", "shapes", _error)
-# Angularity has no unit in common with its truth, a ratio has.
-_BY_SERIES: dict[str, tuple[_Statistic, ...]] = {
-    "roundness": (_ORDER, _GAPS),
-    "sphericity": (_ORDER, _GAPS, _ERROR),
-}
+_ERROR = _Statistic("error", "RMS difference from the true ratio", "1", "shapes", "lower", _error)
 
 
-def _definition(
-    experiment: ShapesExperiment, series: str, claim: Claim, statistic: _Statistic
-) -> Definition:
-    key, title, unit, counted, compute = statistic
-
-    def of_series(records: pd.DataFrame) -> Estimate:
-        own = (records["experiment"] == experiment.name) & (records["series"] == series)
-        return compute(blocks_of(records[own], claim))
-
+def _definition(claim: Claim, statistic: _Statistic) -> Definition:
     return Definition(
-        name=f"{experiment.name}.{series}.{claim.measure}.{key}",
-        title=f"{title_of(claim.measure)}: {title}",
-        unit=unit,
-        counted=counted,
-        compute=of_series,
+        key=Key(claim.experiment, claim.method, claim.series, claim.measure, statistic.key),
+        title=f"{title_of_claim(claim)}: {statistic.title}",
+        unit=statistic.unit or unit_of(claim.measure) or "1",
+        counted=statistic.counted,
+        better=statistic.better,
+        compute=lambda records: statistic.compute(blocks_of(records, claim)),
     )
 
 
-def definitions(experiment: ShapesExperiment) -> tuple[Definition, ...]:
-    """Return the scores of one experiment, series by series and measure by measure."""
+def definitions(claims: Sequence[Claim]) -> tuple[Definition, ...]:
+    """Return the scores of one experiment's claims; an error only where it has a meaning."""
     return tuple(
-        _definition(experiment, series, claim, statistic)
-        for series in experiment.series
-        for claim in SHAPES_CLAIMS[series]
-        for statistic in _BY_SERIES[series]
+        _definition(claim, statistic)
+        for claim in claims
+        for statistic in (*_ANY, *((_ERROR,) if claim.same_quantity else ()))
     )

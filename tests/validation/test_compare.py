@@ -1,0 +1,134 @@
+"""Comparing runs: equal runs are equal, what is spoilt is found, what does not pair is refused."""
+
+import json
+
+import msgspec
+import numpy as np
+import pandas as pd
+import pytest
+
+from rockshape.cli import main
+from validation.compare import compare, load_recorded
+from validation.gates import evaluate
+from validation.oracle import oracle
+from validation.report import write_run
+from validation.report.scores_json import FORMAT
+from validation.run import assess
+from validation.scores import gate_scores
+from validation.units import UnitResult
+
+
+@pytest.fixture(scope="module")
+def good(claims, noise) -> pd.DataFrame:
+    """Records that follow the truth closely, with a little noise."""
+    records = oracle(noise, claims)
+    rng = np.random.default_rng(8)
+    for column in dict.fromkeys(claim.measure for claim in claims):
+        records[column] *= rng.normal(1.0, 0.02, len(records))
+    return records
+
+
+@pytest.fixture(scope="module")
+def folder_of(suite, tmp_path_factory):
+    def write(records):
+        """Write what a comparison reads of a run: no intervals and no page, which take time."""
+        out = tmp_path_factory.mktemp("run")
+        held = evaluate(suite.gates, gate_scores(suite, suite.gates, records))
+        gates = [
+            {**msgspec.structs.asdict(result.gate), "passed": result.passed} for result in held
+        ]
+        document = {"format": FORMAT, "spec": msgspec.to_builtins(suite), "gates": gates}
+        (out / "scores.json").write_text(json.dumps(document), encoding="utf-8")
+        records.to_parquet(out / "results.parquet", index=False)
+        return out
+
+    return write
+
+
+@pytest.fixture(scope="module")
+def old(folder_of, good):
+    return folder_of(good)
+
+
+def verdicts(old, new, **options):
+    changes = compare(load_recorded(old), load_recorded(new), **options)
+    return {change.name: change.verdict for change in changes}
+
+
+def test_a_run_is_no_worse_than_itself(suite, good, old, tmp_path, capsys) -> None:
+    whole = tmp_path / "run"
+    outcome = assess(suite, suite.gates, [UnitResult(good, (), "")])
+    write_run(outcome, whole, command="x", seconds=1.0)
+    assert set(verdicts(old, whole).values()) == {"same"}
+    assert main(["validate", "compare", str(old), str(old)]) == 0
+    assert "no worse" in capsys.readouterr().out
+
+
+def test_a_shuffled_measure_is_worse_and_the_rest_the_same(old, good, folder_of, capsys) -> None:
+    records = good.copy()
+    rows = records["experiment"] == "yard"
+    values = records.loc[rows, "angularity_2d_deg"].to_numpy()
+    records.loc[rows, "angularity_2d_deg"] = np.random.default_rng(1).permutation(values)
+    new = folder_of(records)
+    found = verdicts(old, new)
+    hurt = {name for name, verdict in found.items() if verdict == "worse"}
+    assert {"yard.angularity_2d_deg.tau", "yard.angularity_2d_deg.pairs_across"} <= hurt
+    assert all(name.startswith("yard.angularity_2d_deg.") for name in hurt)
+    assert main(["validate", "compare", str(old), str(new)]) == 1
+    said = capsys.readouterr().out
+    assert "gate passed before and fails now: `yard.angularity_2d_deg.tau" in said
+    assert main(["validate", "compare", str(new), str(old)]) == 0
+    assert "| better | `yard.angularity_2d_deg.tau`" in capsys.readouterr().out
+
+
+def test_noise_is_not_taken_for_a_regression(old, good, folder_of, claims) -> None:
+    # Fresh noise of the same size on every value: neither run is worse than the other, and the
+    # intervals hold for all scores together at 95 %. The draws are fixed.
+    records = good.copy()
+    rng = np.random.default_rng(9)
+    clean = oracle(good, claims)
+    for column in dict.fromkeys(claim.measure for claim in claims):
+        records[column] = clean[column] * rng.normal(1.0, 0.02, len(records))
+    found = list(verdicts(old, folder_of(records)).values())
+    assert "worse" not in found
+
+
+def test_missed_rocks_are_worse_unless_the_margin_says_otherwise(old, good, folder_of) -> None:
+    records = good.copy()
+    lost = (records["experiment"] == "form") & (records["instance"] < 3) & (records["view"] == 0)
+    records.loc[lost, "status"] = "missed"
+    new = folder_of(records)
+    assert verdicts(old, new)["form.recall"] == "worse"
+    assert verdicts(old, new, margin=0.5)["form.recall"] == "same"
+
+
+def test_a_measure_that_gives_nothing_is_gone(old, good, folder_of) -> None:
+    new = folder_of(good.assign(sphericity_3d=np.nan))
+    assert verdicts(old, new)["form.sphericity_3d.tau"] == "gone"
+
+
+def test_a_level_moves_and_is_neither_better_nor_worse(old, good, folder_of) -> None:
+    new = folder_of(good.assign(angularity_2d_deg=2 * good["angularity_2d_deg"]))
+    found = verdicts(old, new)
+    assert found["yard.angularity_2d_deg.level"] == "moved"
+    assert found["yard.angularity_2d_deg.tau"] == "same"
+
+
+def refused(old, new, capsys, *more) -> str:
+    assert main(["validate", "compare", str(old), str(new), *more]) == 2
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    return error
+
+
+def test_what_does_not_pair_is_refused(old, good, folder_of, tmp_path, capsys) -> None:
+    assert "none" in refused(old, tmp_path / "none", capsys)
+    assert "scores.json" in refused(tmp_path, old, capsys)
+    assert "--margin" in refused(old, old, capsys, "--margin", "-1")
+    fewer = folder_of(good[good["instance"] != 5])
+    assert "rocks" in refused(old, fewer, capsys)
+    stale = folder_of(good.assign(truth_angularity=good["truth_angularity"] * 0.9))
+    assert "truth_angularity" in refused(old, stale, capsys)
+    (tmp_path / "scores.json").write_text(json.dumps({"format": "other"}), encoding="utf-8")
+    (tmp_path / "results.parquet").write_bytes((old / "results.parquet").read_bytes())
+    assert "other" in refused(tmp_path, old, capsys)

@@ -1,0 +1,34 @@
+"""A measure that is a function of Python: package.module:function."""
+
+import importlib
+import sys
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+
+from validation.errors import InputError
+
+Function = Callable[..., object]
+
+
+@cache
+def load_function(target: str) -> Function:
+    """Return the function that `package.module:function` names, also of the current folder.
+
+    Raises:
+        InputError: no such module or function, or a package that it needs is missing.
+    """
+    module_name, _, name = target.partition(":")
+    if str(Path.cwd()) not in sys.path:
+        sys.path.append(str(Path.cwd()))
+    try:
+        module = importlib.import_module(module_name)
+    except ImportError as error:
+        raise InputError(
+            f"--measure {target}: expected a module that can be imported, found: {error}"
+        ) from error
+    function = getattr(module, name, None)
+    if not callable(function):
+        raise InputError(f"--measure {target}: expected a function {name} in {module_name}")
+    found: Function = function
+    return found

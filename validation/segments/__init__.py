@@ -1,0 +1,1 @@
+"""Segmentation held against true masks: variants and baselines on the same scenes."""

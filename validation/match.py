@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
@@ -31,10 +32,10 @@ def match_labels(
     """
     if truth.shape != measured.shape:
         raise InputError(f"labels: expected {truth.shape} as the truth, found {measured.shape}")
-    true_ids, true_index = np.unique(truth, return_inverse=True)
-    found_ids, found_index = np.unique(measured, return_inverse=True)
+    true_index, true_ids = pd.factorize(truth.ravel(), sort=True)
+    found_index, found_ids = pd.factorize(measured.ravel(), sort=True)
     shape = (true_ids.size, found_ids.size)
-    flat = true_index.ravel() * found_ids.size + found_index.ravel()
+    flat = true_index * found_ids.size + found_index
     common = np.bincount(flat, minlength=shape[0] * shape[1]).reshape(shape)
     union = common.sum(axis=1, keepdims=True) + common.sum(axis=0) - common
     iou = common / union

@@ -47,8 +47,20 @@ _TRUTH: dict[Trait, str] = {
 }
 ASPECT = "truth_axis_ratio"
 RECTANGLE = "truth_rectangle_ratio"  # short over long side of the smallest rectangle
+# What a view truly shows, by the column that is held to it.
+_VIEW_TRUTH = {
+    "axis_ratio": "truth_outline_axis_ratio",
+    "sphericity_2d": "truth_outline_axis_ratio",
+    "roundness": "truth_outline_roundness",
+    "angularity_2d_deg": "truth_outline_angularity",
+    "angularity_2d": "truth_outline_angularity",
+    "ellipse_error_px2": "truth_outline_angularity",
+    "ellipse_error": "truth_outline_angularity",
+}
 _SAME_QUANTITY = {
     ("axis_ratio", ASPECT),
+    ("axis_ratio", "truth_outline_axis_ratio"),
+    ("roundness", "truth_outline_roundness"),
     ("sphericity_2d", RECTANGLE),
     ("sphericity_3d", _TRUTH["form"]),
 }
@@ -59,10 +71,15 @@ class Claim:
     """A method's column rises with a truth, in one experiment (and one series of shapes)."""
 
     experiment: str
-    series: str  # of shapes; empty for rocks
+    series: str  # of shapes; the step of a sweep; empty for other rocks
     method: str
     measure: str  # the column
     truth: str  # a column of the records
+
+    @property
+    def per_view(self) -> bool:
+        """Whether the truth is that of the outline in each view, not of the rock."""
+        return self.truth in _VIEW_TRUTH.values()
 
     @property
     def same_quantity(self) -> bool:
@@ -100,7 +117,8 @@ def claims_of(suite: Suite, experiment: Experiment) -> tuple[Claim, ...]:
     columns = list(_columns(suite, experiment))
     if isinstance(experiment, YardExperiment):
         return tuple(
-            Claim(experiment.name, "", method, column, _TRUTH[trait])
+            Claim(experiment.name, series, method, column, _TRUTH[trait])
+            for series in experiment.series
             for varied in experiment.varied
             for method, column, trait in columns
             if trait in _TRAITS[varied]
@@ -116,3 +134,20 @@ def claims_of(suite: Suite, experiment: Experiment) -> tuple[Claim, ...]:
 def all_claims(suite: Suite) -> tuple[Claim, ...]:
     """Return the claims of all experiments of a suite."""
     return tuple(c for experiment in suite.experiments for c in claims_of(suite, experiment))
+
+
+def view_claims_of(suite: Suite, experiment: Experiment) -> tuple[Claim, ...]:
+    """Return the claims on what each view of an experiment of rocks truly shows."""
+    if not isinstance(experiment, YardExperiment):
+        return ()
+    return tuple(
+        Claim(experiment.name, series, method, column, _VIEW_TRUTH[column])
+        for series in experiment.series
+        for method, column, _ in _columns(suite, experiment)
+        if column in _VIEW_TRUTH
+    )
+
+
+def all_view_claims(suite: Suite) -> tuple[Claim, ...]:
+    """Return the claims on what views truly show, of all experiments of a suite."""
+    return tuple(c for e in suite.experiments for c in view_claims_of(suite, e))

@@ -15,7 +15,7 @@ class Place:
 
     experiment: str
     kind: str  # yard, shapes or segmentation
-    series: str  # of shapes; way and range of a segmentation; empty for rocks
+    series: str  # of shapes; a sweep's step; way and range of a segmentation; else empty
     scene: int
     seed: int
     view: int

@@ -1,7 +1,7 @@
 """Run a suite: its units on an executor, then scores, then gates."""
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 
@@ -10,12 +10,13 @@ import numpy as np
 import pandas as pd
 
 from synth.render import choose_backend
-from validation.claims import all_claims
+from validation.claims import Claim, all_claims, all_view_claims
 from validation.dispatch import OnDone, dispatch
 from validation.gates import Found, Gate, GateResult, evaluate
 from validation.oracle import mixed, oracle, shuffled
 from validation.pictures import Picture
 from validation.scores import Score, gate_scores, score_records
+from validation.scores.yard import VIEW_PREFIX
 from validation.store import StoredPicture, StoredResult, UnitStore, unit_key
 from validation.suite import Experiment, ShapesExperiment, Suite
 from validation.units import UnitResult, units_of
@@ -64,6 +65,10 @@ class Run:
         return all(gate.passed for gate in self.gates)
 
 
+def _statistic(gate: Gate) -> str:
+    return gate.score.rpartition(".")[2]
+
+
 def default_jobs() -> int:
     """Return the number of processors this process may use."""
     if hasattr(os, "sched_getaffinity"):
@@ -98,12 +103,17 @@ def assess(suite: Suite, gates: Sequence[Gate], results: Iterable[Result]) -> Ru
     scores = score_records(suite, records)
     found = {score.name: Found(score.value, score.low, score.high) for score in scores}
     checked = [gate for gate in gates if not gate.score.endswith(".level")]
-    claims = all_claims(suite)
+    of_view = [gate for gate in checked if _statistic(gate).startswith(VIEW_PREFIX)]
+    of_rock = [gate for gate in checked if gate not in of_view]
 
-    def gated(fed: pd.DataFrame) -> tuple[GateResult, ...]:
-        return evaluate(checked, gate_scores(suite, checked, fed))
+    def gated(feed: Callable[[Sequence[Claim]], pd.DataFrame]) -> tuple[GateResult, ...]:
+        return tuple(
+            result
+            for held, claims in ((of_rock, all_claims(suite)), (of_view, all_view_claims(suite)))
+            if held
+            for result in evaluate(held, gate_scores(suite, held, feed(claims)))
+        )
 
-    other, mingled = shuffled(records, claims, rng=rng), mixed(records, claims, rng=rng)
     return Run(
         suite=suite,
         records=records,
@@ -112,9 +122,24 @@ def assess(suite: Suite, gates: Sequence[Gate], results: Iterable[Result]) -> Ru
         scores=scores,
         gates=evaluate(gates, found),
         checks=(
-            Check("oracle", "the truth as measurement", True, gated(oracle(records, claims))),
-            Check("shuffled", "the truth of other rocks", False, gated(other)),
-            Check("mixed", "the values of other rocks", False, gated(mingled)),
+            Check(
+                "oracle",
+                "the truth as measurement",
+                True,
+                gated(lambda claims: oracle(records, claims)),
+            ),
+            Check(
+                "shuffled",
+                "the truth of other rocks",
+                False,
+                gated(lambda claims: shuffled(records, claims, rng=rng)),
+            ),
+            Check(
+                "mixed",
+                "the values of other rocks",
+                False,
+                gated(lambda claims: mixed(records, claims, rng=rng)),
+            ),
         )
         if checked
         else (),

@@ -13,6 +13,7 @@ from synth.spec import SceneSpec
 from validation.errors import InputError
 from validation.gates import Gate, GateFile
 from validation.measures import MeasureSpec, Name, Text
+from validation.sweep import Sweep
 
 Seed = Annotated[int, Meta(ge=0, lt=2**32)]
 Methods = Annotated[tuple[str, ...], Meta(min_length=1)]
@@ -38,7 +39,8 @@ class YardExperiment(
 ):
     """Rocks seen from several views, as in the paper's figure 10, but with truth.
 
-    Scene i of the experiment is scene 0 of `scene` with the seed `seed` + i.
+    Scene i of the experiment is scene 0 of `scene` with the seed `seed` + i; with a sweep, at each
+    of its steps.
     """
 
     name: Name
@@ -47,7 +49,9 @@ class YardExperiment(
     scenes: Annotated[int, Meta(ge=1, le=9999)]
     varied: Annotated[tuple[Varied, ...], Meta(min_length=1)]  # truths that differ between rocks
     scene: SceneSpec = SceneSpec()
+    sweep: Sweep | None = None
     methods: Methods = tuple(METHODS)  # side by side; the first one's outlines are the pictures'
+    labels: Literal["found", "true"] = "found"  # whose masks are measured
     min_visible_fraction: Annotated[float, Meta(ge=0, le=1)] = 0.8
     min_iou: Annotated[float, Meta(gt=0, le=1)] = 0.5
     pictured: Annotated[int, Meta(ge=0, le=12)] = 1  # scenes shown in the report
@@ -60,6 +64,17 @@ class YardExperiment(
                 f"experiment {self.name!r}: expected seed and scenes beside its name, "
                 "found one of them under scene"
             )
+        for step in self.series:
+            self.scene_at(step)
+
+    @property
+    def series(self) -> tuple[str, ...]:
+        """The steps of the sweep; one without a name where there is none."""
+        return ("",) if self.sweep is None else self.sweep.steps
+
+    def scene_at(self, step: str) -> SceneSpec:
+        """Return the scene of a step."""
+        return self.scene if self.sweep is None else self.sweep.scene(self.scene, step)
 
 
 class ShapesExperiment(

@@ -32,6 +32,8 @@ class RockView(Struct, frozen=True, kw_only=True):
     visible_fraction: float
     truncated: bool
     pixel_m: float
+    outline_axis_ratio: float
+    outline_roundness: float | None
 
 
 class SceneTruth(Struct, frozen=True, kw_only=True):
@@ -91,6 +93,20 @@ def rock_columns(rock: RockTruth) -> dict[str, object]:
         "truth_angularity": 1.0 - roundness,
         "truth_maximum_projection_sphericity": rock.maximum_projection_sphericity,
         "truth_wadell_sphericity": wadell,
+    }
+
+
+def view_columns(rock: RockView) -> dict[str, object]:
+    """Return what one view truly shows of a rock as columns of the results."""
+    roundness = np.nan if rock.outline_roundness is None else rock.outline_roundness
+    return {
+        "instance": rock.instance,
+        "truth_visible_fraction": rock.visible_fraction,
+        "truth_truncated": rock.truncated,
+        "truth_pixel_m": rock.pixel_m,
+        "truth_outline_axis_ratio": rock.outline_axis_ratio,
+        "truth_outline_roundness": roundness,
+        "truth_outline_angularity": 1.0 - roundness,
     }
 
 

@@ -31,14 +31,16 @@ from validation.truth import (
     read_scene_truth,
     read_shape_truth,
     rock_columns,
+    view_columns,
 )
 
 
 @dataclass(frozen=True)
 class SceneUnit:
-    """Scene number `scene` of an experiment of rocks."""
+    """Scene number `scene` of an experiment of rocks, at one step of its sweep."""
 
     experiment: YardExperiment
+    series: str
     scene: int
     measures: tuple[MeasureSpec, ...] = ()  # beside the experiment's methods
 
@@ -80,7 +82,9 @@ def units_of(suite: Suite) -> tuple[Unit, ...]:
     for experiment in suite.experiments:
         if isinstance(experiment, YardExperiment):
             units += [
-                SceneUnit(experiment, scene, suite.measures) for scene in range(experiment.scenes)
+                SceneUnit(experiment, step, scene, suite.measures)
+                for step in experiment.series
+                for scene in range(experiment.scenes)
             ]
         elif isinstance(experiment, SegmentationExperiment):
             units += [SegmentationUnit(experiment, scene) for scene in range(experiment.scenes)]
@@ -95,7 +99,7 @@ def units_of(suite: Suite) -> tuple[Unit, ...]:
 
 def describe(unit: Unit) -> str:
     """Return a unit's name for the progress."""
-    series = f" {unit.series}" if isinstance(unit, DrawingUnit) else ""
+    series = "" if isinstance(unit, SegmentationUnit) or not unit.series else f" {unit.series}"
     return f"{unit.experiment.name}{series} {unit.experiment.seed + unit.scene}"
 
 
@@ -114,8 +118,10 @@ def spec_of(unit: Unit) -> dict[str, object]:
         {"name": m.name, "function": m.function, "command": m.command, "source": source_digest(m)}
         for m in unit.measures
     ]
-    if isinstance(unit, DrawingUnit):
-        spec["series"] = unit.series
+    spec["series"] = unit.series
+    if isinstance(unit, SceneUnit):
+        spec["scene"] = msgspec.to_builtins(unit.experiment.scene_at(unit.series))
+        spec.pop("sweep")
     return spec
 
 
@@ -139,11 +145,8 @@ def _view_truth(
     rocks = pd.DataFrame([rock_columns(rock) for rock in scene.rocks])
     shown = pd.DataFrame(
         [
-            {
-                "instance": rock.instance,
-                "truth_visible_fraction": rock.visible_fraction,
-                "truth_truncated": rock.truncated,
-                "truth_pixel_m": rock.pixel_m,
+            view_columns(rock)
+            | {
                 "eligible": not rock.truncated
                 and rock.visible_fraction >= experiment.min_visible_fraction,
             }
@@ -199,7 +202,8 @@ def _measure_view(view: View, unit: MeasuredUnit) -> tuple[pd.DataFrame, Picture
 
 def _scene_views(unit: SceneUnit, folder: Path) -> tuple[list[View], str]:
     experiment = unit.experiment
-    spec = msgspec.structs.replace(experiment.scene, seed=experiment.seed + unit.scene)
+    scene_spec = experiment.scene_at(unit.series)
+    spec = msgspec.structs.replace(scene_spec, seed=experiment.seed + unit.scene)
     backend = choose_backend(spec.renderer)
     write_scene(spec, 0, backend, folder)
     write_common(spec, backend, folder)
@@ -214,9 +218,11 @@ def _scene_views(unit: SceneUnit, folder: Path) -> tuple[list[View], str]:
         instances = read_instances(scene / "labels" / name)
         views.append(
             View(
-                place=Place(experiment.name, "yard", "", unit.scene, spec.seed, number, ""),
+                place=Place(
+                    experiment.name, "yard", unit.series, unit.scene, spec.seed, number, ""
+                ),
                 observation=Observation(image=image, points_m=points_m, camera=camera),
-                given=None,
+                given=instances if experiment.labels == "true" else None,
                 instances=instances,
                 truth=_view_truth(truth, number, instances, experiment=experiment),
                 min_iou=experiment.min_iou,

@@ -36,6 +36,13 @@ class SceneSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     noise: NoiseSpec = NoiseSpec()
     sensor: SensorSpec = SensorSpec()
 
+    def __post_init__(self) -> None:
+        """Refuse counted rocks on a pan: none could lie in every view."""
+        if self.views.path == "pan" and self.population.kind == "count":
+            raise ValueError(
+                'views.path: \'pan\' needs population.kind = "golombek-rapp", found "count"'
+            )
+
 
 def load_spec(path: Path) -> SceneSpec:
     """Read a spec from a TOML file; what the file leaves out keeps its default.

@@ -40,17 +40,23 @@ class CameraSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
 
 
 class ViewsSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """The camera's stations, all looking at camera.target_m.
+    """The camera's stations, all looking at camera.target_m but on a pan.
 
     `ring`: evenly round the scene's centre. `arc`: evenly over a part of the ring, `start_deg` in
     its middle. `drive-by`: evenly along a straight line that passes the centre on one side, its
-    middle at `start_deg`.
+    middle at `start_deg`. `pan`: from one station at `start_deg`, the camera turned about its mast
+    evenly over `arc_deg`, camera.target_m in the middle; for populations, since no rock could be in
+    every view.
     """
 
     count: Count = 4
-    path: Literal["ring", "arc", "drive-by"] = "ring"
-    start_deg: Degrees = 0.0  # azimuth of the first (ring) or middle station, from x towards y
-    arc_deg: Annotated[float, Meta(gt=0, le=360)] = 60.0  # from the first station to the last
+    path: Literal["ring", "arc", "drive-by", "pan"] = "ring"
+    start_deg: Degrees = (
+        0.0  # azimuth of the first (ring), middle or only station, from x towards y
+    )
+    arc_deg: Annotated[float, Meta(gt=0, le=360)] = (
+        60.0  # from the first station (pan: direction) to the last
+    )
     length_m: Positive = 3.0  # of the drive, from the first station to the last
 
 

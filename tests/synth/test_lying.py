@@ -139,6 +139,21 @@ def test_paths_look_at_the_target():
             assert np.linalg.norm(steps.sum(axis=0)) == pytest.approx(3.0)
 
 
+def test_a_pan_turns_about_its_mast():
+    spec, views = CameraSpec(distance_m=4.0), ViewsSpec(count=7, path="pan", arc_deg=72.0)
+    poses = stations(spec, views)
+    axes = np.array([pose.world_to_camera[2] for pose in poses])  # forward, in the world
+    np.testing.assert_allclose(
+        [pose.position_m() for pose in poses], [poses[0].position_m()] * 7, atol=1e-12
+    )
+    np.testing.assert_allclose(axes[:, 2], axes[0, 2], atol=1e-12)
+    bearings = np.unwrap(np.arctan2(axes[:, 1], axes[:, 0]))
+    np.testing.assert_allclose(np.rad2deg(np.diff(bearings)), 12.0, atol=1e-9)
+    camera = camera_of(spec)
+    centre = project(camera, poses[3].camera_points_m(np.zeros(3)))
+    np.testing.assert_allclose(centre, [camera.cx, camera.cy], atol=1e-9)
+
+
 def test_a_roll_turns_the_horizon():
     pose = look_at(np.array([4.0, 0.0, 2.0]), np.zeros(3), roll_rad=np.pi / 6)
     up = pose.world_to_camera @ np.array([0.0, 0.0, 1.0])

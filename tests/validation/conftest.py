@@ -53,6 +53,9 @@ def _yard(experiment: YardExperiment, rng: np.random.Generator) -> Iterator[pd.D
         truths = {
             "truth_roundness": roundness,
             "truth_angularity": 1 - roundness,
+            "truth_outline_roundness": roundness,
+            "truth_outline_angularity": 1 - roundness,
+            "truth_outline_axis_ratio": np.linspace(0.5, 0.9, rocks),
             "truth_maximum_projection_sphericity": rng.permutation(rocks) / 10 + 0.3,
         }
         place = {"experiment": experiment.name, "kind": "yard", "series": "", "scene": scene}

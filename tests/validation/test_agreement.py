@@ -11,9 +11,11 @@ from validation.agreement import (
     across_views,
     between_views,
     coefficients_of_variation,
+    concordance,
     divide_by_view_means,
     intraclass_correlation,
     kendall_w,
+    rank_moves,
     share_in_order,
     tau_b,
     within_views,
@@ -107,11 +109,64 @@ def test_kendall_w_ends() -> None:
     assert tau_b(between_views([opposite])) == -1.0
 
 
+def test_kendall_w_of_weighted_rocks_is_that_of_repeated_ones() -> None:
+    rng = np.random.default_rng(2)
+    blocks = [block(rng.integers(0, 4, (3, n)), np.zeros(n)) for n in (5, 5, 4)]
+    weights = rng.integers(0, 3, 14)
+    parts = np.split(weights, [5, 10])
+    repeated = [
+        block(np.repeat(b.values, part, axis=1), np.zeros(part.sum()))
+        for b, part in zip(blocks, parts, strict=True)
+    ]
+    found = concordance(blocks).weighted(weights.astype(float))
+    assert found == pytest.approx(kendall_w(repeated), abs=ROUNDING)
+
+
+def test_p_of_perfect_concordance_is_one_arrangement() -> None:
+    # Three views: the second and the third must each be the one of six orders that the first has.
+    perfect = block([[1, 2, 3]] * 3, [1, 2, 3])
+    assert concordance([perfect]).p_value() == pytest.approx(1 / 36)
+    assert concordance([perfect, perfect]).p_value() == pytest.approx(1 / 36**2)
+    assert concordance([block([[1, 2, 3], [3, 2, 1]], [1, 2, 3])]).p_value() == 1.0
+
+
+def test_p_of_random_ranks_is_uniform() -> None:
+    # Above MOST_ARRANGEMENTS p comes from random ones. The mean of 40 uniform numbers is 0.5 with
+    # a standard error of 0.046; the bounds are four of those.
+    rng = np.random.default_rng(4)
+    found = [concordance([block(rng.random((3, 7)), np.zeros(7))]).p_value() for _ in range(40)]
+    assert 0.31 <= np.mean(found) <= 0.69
+    same = block([np.arange(8)] * 4, np.arange(8))
+    assert concordance([same]).p_value() == 1 / 2000
+
+
+def test_truth_of_each_view() -> None:
+    turned = block([[1, 2], [2, 1]], [[10, 20], [20, 10]])
+    assert tau_b(within_views([turned])) == 1.0
+    assert share_in_order(across_views([turned])) == 1.0
+    assert share_in_order(across_views([block(turned.values, [10, 20])])) == 0.5
+
+
 def test_coefficient_of_variation() -> None:
-    table = block([[1, 2, np.nan], [3, 2, 5]], [1, 2, 3])
+    nan = np.nan
+    table = block([[1, 2, nan, nan], [3, 2, 5, 1], [nan, nan, nan, 3]], [1, 2, 3, 4])
     cvs = coefficients_of_variation([table])
-    assert cvs[:2] == pytest.approx([np.sqrt(2) / 2, 0.0], abs=ROUNDING)
+    assert cvs[[0, 1, 3]] == pytest.approx([np.sqrt(2) / 2, 0.0, np.sqrt(2) / 2], abs=ROUNDING)
     assert np.isnan(cvs[2])
+
+
+def test_rank_moves() -> None:
+    # The ranking of the six rock views is 1 2 3 | 4 5 6: rock 1 goes from 1 to 6, 2 and 3 from
+    # 2 to 4 and from 3 to 5.
+    moves = rank_moves([block([[1, 2, 3], [9, 4, 5]], [1, 2, 3])])
+    assert moves == pytest.approx(np.array([5, 2, 2]) / 6, abs=ROUNDING)
+    assert np.isnan(rank_moves([block([[1, 2], [np.nan, 3]], [1, 2])])[0])
+
+
+def test_rank_moves_of_independent_values_are_a_third() -> None:
+    values = np.random.default_rng(6).random((2, 20000))
+    # |u − v| of uniform numbers has mean 1/3 and deviation 0.236: 0.0017 for 20000, six of those.
+    assert rank_moves([block(values, np.zeros(20000))]).mean() == pytest.approx(1 / 3, abs=0.01)
 
 
 def test_a_views_common_factor_is_divided_out() -> None:
@@ -124,13 +179,36 @@ def test_a_views_common_factor_is_divided_out() -> None:
 
 
 def test_icc_of_shrout_and_fleiss() -> None:
-    # Shrout and Fleiss 1979, table 2: six targets, four judges; table 4 prints .29 and .71.
+    # Shrout and Fleiss 1979, table 2: six targets, four judges; table 4 prints .29 and .71. Their
+    # intervals as McGraw and Wong's and Shrout and Fleiss's formulas give them elsewhere.
     judged = np.array(
         [[9, 2, 5, 8], [6, 1, 3, 2], [8, 4, 6, 8], [7, 1, 2, 6], [10, 5, 6, 9], [6, 2, 4, 7]]
     )
     found = intraclass_correlation([block(np.exp(judged.T), np.arange(6))])
     assert round(found.icc_2_1, 2) == 0.29
     assert round(found.icc_3_1, 2) == 0.71
+    assert np.round(found.icc_2_1_interval, 2).tolist() == [0.02, 0.76]
+    assert np.round(found.icc_3_1_interval, 2).tolist() == [0.34, 0.95]
+
+
+def test_icc_intervals_cover() -> None:
+    # 95 % of 300 intervals hold the true ICC of 0.8 (rocks' variance 4, the rest's 1; for ICC(2,1)
+    # the views' 0.25 makes it 4/5.25); the standard error is 1.3 %, five of those are left.
+    rng = np.random.default_rng(5)
+    hits = np.zeros(2)
+    for _ in range(300):
+        rocks, views = rng.normal(0, 2, 12), rng.normal(0, 0.5, (4, 1))
+        found = intraclass_correlation(
+            [block(np.exp(rocks + views + rng.normal(size=(4, 12))), np.zeros(12))]
+        )
+        hits += [
+            low <= true <= high
+            for (low, high), true in (
+                (found.icc_2_1_interval, 4 / 5.25),
+                (found.icc_3_1_interval, 0.8),
+            )
+        ]
+    assert (hits / 300 >= 0.885).all()
 
 
 def test_icc_needs_positive_values() -> None:

@@ -95,7 +95,16 @@ def test_no_scheduler_there_is_one_line_and_status_2(
 ) -> None:
     monkeypatch.setattr("validation.executors.CONNECT_S", 1)
     out = tmp_path / "out"
-    words = ["validate", "run", "--suite", "shapes", "--out", str(out), "--scheduler", address]
+    words = [
+        "validate",
+        "run",
+        "--suite",
+        "shapes-roundness",
+        "--out",
+        str(out),
+        "--scheduler",
+        address,
+    ]
     assert main(words) == 2
     error = capsys.readouterr().err
     assert error.count("\n") == 1
@@ -105,7 +114,7 @@ def test_no_scheduler_there_is_one_line_and_status_2(
 
 def test_without_the_package_it_is_one_line_and_status_3(tmp_path, capsys, monkeypatch) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)
-    words = ["validate", "run", "--suite", "shapes", "--out", str(tmp_path / "out")]
+    words = ["validate", "run", "--suite", "shapes-roundness", "--out", str(tmp_path / "out")]
     assert main([*words, "--scheduler", "tcp://127.0.0.1:9"]) == 3
     error = capsys.readouterr().err
     assert error.count("\n") == 1

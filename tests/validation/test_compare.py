@@ -1,6 +1,7 @@
 """Comparing runs: equal runs are equal, what is spoilt is found, what does not pair is refused."""
 
 import json
+from pathlib import Path
 
 import msgspec
 import numpy as np
@@ -8,7 +9,7 @@ import pandas as pd
 import pytest
 
 from rockshape.cli import main
-from validation.compare import compare, load_recorded
+from validation.compare import Recorded, compare, load_recorded
 from validation.gates import evaluate
 from validation.oracle import oracle
 from validation.report import write_run
@@ -81,16 +82,23 @@ def test_a_shuffled_measure_is_worse_and_the_rest_the_same(old, good, folder_of,
     assert "| better | `yard.angularity_2d_deg.tau`" in capsys.readouterr().out
 
 
-def test_noise_is_not_taken_for_a_regression(old, good, folder_of, claims) -> None:
+def test_noise_is_seldom_taken_for_a_regression(suite, good, claims) -> None:
     # Fresh noise of the same size on every value: neither run is worse than the other, and the
-    # intervals hold for all scores together at 95 %. The draws are fixed.
-    records = good.copy()
-    rng = np.random.default_rng(9)
+    # intervals hold for all scores together at 95 %. Of ten such pairs more than three give a false
+    # alarm once in a thousand times.
     clean = oracle(good, claims)
-    for column in dict.fromkeys(claim.measure for claim in claims):
-        records[column] = clean[column] * rng.normal(1.0, 0.02, len(records))
-    found = list(verdicts(old, folder_of(records)).values())
-    assert "worse" not in found
+
+    def noisy(seed: int) -> Recorded:
+        records, rng = clean.copy(), np.random.default_rng(seed)
+        for column in dict.fromkeys(claim.measure for claim in claims):
+            records[column] *= rng.normal(1.0, 0.02, len(records))
+        return Recorded(Path(str(seed)), suite, records, {})
+
+    alarms = [
+        any(change.verdict == "worse" for change in compare(noisy(2 * n), noisy(2 * n + 1)))
+        for n in range(10)
+    ]
+    assert sum(alarms) <= 3
 
 
 def test_missed_rocks_are_worse_unless_the_margin_says_otherwise(old, good, folder_of) -> None:

@@ -186,7 +186,7 @@ def test_a_peer_that_is_installed_ranks_drawn_forms(name) -> None:
 
 
 def test_names_must_differ(capsys, tmp_path) -> None:
-    words = ["validate", "run", "--suite", "shapes", "--out", str(tmp_path / "out")]
+    words = ["validate", "run", "--suite", "shapes-roundness", "--out", str(tmp_path / "out")]
     twice = ["--measure", "scikit-image", "--measure", "scikit-image"]
     assert main([*words, *twice]) == 2
     assert "NAME=" in capsys.readouterr().err

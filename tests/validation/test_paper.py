@@ -6,6 +6,7 @@ from validation.agreement import (
     across_views,
     between_views,
     coefficients_of_variation,
+    concordance,
     divide_by_view_means,
     intraclass_correlation,
     kendall_w,
@@ -29,6 +30,8 @@ THREE_DIGITS = 5.1e-4  # half a unit of the third decimal, and rounding
 def test_tables_1_to_3(number, cvs, means, icc, counts) -> None:
     blocks = [consistency_table(number).block]
     assert kendall_w(blocks) == 1.0
+    views = blocks[0].values.shape[0]
+    assert concordance(blocks).p_value() == pytest.approx(1 / 6 ** (views - 1))
     assert tau_b(between_views(blocks)) == 1.0
     assert tau_b(within_views(blocks)) == 1.0
     found = coefficients_of_variation(blocks)

@@ -17,6 +17,7 @@ from validation.truth import (
     read_scene_truth,
     read_shape_truth,
     rock_columns,
+    view_columns,
 )
 
 PLACE = Place("yard", "yard", "", 0, 10000, 2, "paper")
@@ -70,13 +71,22 @@ ROCK = {
     "wadell_sphericity": None,
     "more": "is allowed",
 }
-SEEN = {"instance": 0, "visible_fraction": 1.0, "truncated": False, "pixel_m": 0.003}
+SEEN = {
+    "instance": 0,
+    "visible_fraction": 1.0,
+    "truncated": False,
+    "pixel_m": 0.003,
+    "outline_axis_ratio": 0.8,
+    "outline_roundness": None,
+}
 
 
 def test_truth_without_roundness_is_nan(tmp_path) -> None:
     path = tmp_path / "scene_gt_shape.json"
     path.write_text(json.dumps({"rocks": [ROCK], "views": {"0": [SEEN]}}), encoding="utf-8")
-    columns = rock_columns(read_scene_truth(path).rocks[0])
+    truth = read_scene_truth(path)
+    assert np.isnan(view_columns(truth.views["0"][0])["truth_outline_angularity"])
+    columns = rock_columns(truth.rocks[0])
     assert np.isnan(columns["truth_roundness"])
     assert np.isnan(columns["truth_angularity"])
     assert columns["truth_axis_a_m"] == 0.3

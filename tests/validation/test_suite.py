@@ -23,7 +23,15 @@ def test_every_suite_is_whole(name) -> None:
 
 
 def test_the_suites_of_the_contract_are_there() -> None:
-    assert {"ci", "shapes", "yard"} <= set(suite_names())
+    assert {
+        "ci",
+        "full",
+        "garden",
+        "segmentation",
+        "shapes-roundness",
+        "shapes-sphericity",
+        "yard",
+    } <= set(suite_names())
 
 
 @pytest.mark.parametrize(
@@ -52,7 +60,7 @@ def test_a_bad_key_is_named(tmp_path, old, new, named) -> None:
 
 
 def test_no_such_suite() -> None:
-    with pytest.raises(InputError, match=r"--suite: expected one of ci, .*found 'nope'"):
+    with pytest.raises(InputError, match=r"--suite: expected one of burial, ci, .*found 'nope'"):
         load_suite("nope")
 
 

@@ -5,7 +5,7 @@ go through the same code.
 """
 
 from validation.agreement.block import Block
-from validation.agreement.concordance import kendall_w
+from validation.agreement.concordance import concordance, kendall_w
 from validation.agreement.correlation import IntraclassCorrelation, intraclass_correlation
 from validation.agreement.pairs import (
     Pairs,
@@ -18,6 +18,7 @@ from validation.agreement.pairs import (
 from validation.agreement.variation import (
     coefficients_of_variation,
     divide_by_view_means,
+    rank_moves,
 )
 
 __all__ = [
@@ -27,9 +28,11 @@ __all__ = [
     "across_views",
     "between_views",
     "coefficients_of_variation",
+    "concordance",
     "divide_by_view_means",
     "intraclass_correlation",
     "kendall_w",
+    "rank_moves",
     "share_in_order",
     "tau_b",
     "within_views",

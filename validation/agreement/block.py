@@ -17,19 +17,27 @@ class Block:
     """
 
     values: NDArray[np.float64]  # (views, rocks), NaN where a rock was not measured
-    truth: NDArray[np.float64]  # (rocks,), a greater truth asks for a greater value
+    truth: NDArray[np.float64]  # (rocks,), or (views, rocks) where it differs from view to view
 
     def __post_init__(self) -> None:
-        if self.values.ndim != 2 or self.truth.shape != self.values.shape[1:]:
+        if self.values.ndim != 2 or self.truth.shape not in (
+            self.values.shape,
+            self.values.shape[1:],
+        ):
             raise InputError(
-                "block: expected values (views, rocks) and truth (rocks,), "
+                "block: expected values (views, rocks) and truth (rocks,) or (views, rocks), "
                 f"found {self.values.shape} and {self.truth.shape}"
             )
 
     @property
     def rocks(self) -> int:
         """The number of rocks."""
-        return int(self.truth.size)
+        return int(self.values.shape[1])
+
+    @property
+    def view_truth(self) -> NDArray[np.float64]:
+        """The truth in each view, (views, rocks); a greater truth asks for a greater value."""
+        return np.broadcast_to(self.truth, self.values.shape)
 
     def complete(self) -> NDArray[np.float64]:
         """Return the values (views, complete rocks) of the rocks measured in every view."""

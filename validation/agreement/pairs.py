@@ -80,8 +80,8 @@ def within_views(
     def parts() -> Iterator[_Part]:
         for block, offset in zip(blocks, _offsets(blocks), strict=False):
             i, j = np.triu_indices(block.rocks, 1)
-            for values in block.values:
-                yield offset + i, offset + j, block.truth[i] - block.truth[j], values[i] - values[j]
+            for values, truth in zip(block.values, block.view_truth, strict=True):
+                yield offset + i, offset + j, truth[i] - truth[j], values[i] - values[j]
 
     return _pool(
         parts(),
@@ -103,10 +103,10 @@ def across_views(
     def parts() -> Iterator[_Part]:
         for block, offset in zip(blocks, _offsets(blocks), strict=False):
             i, j = np.triu_indices(block.rocks, 1)
-            for one in block.values:
-                for other in block.values:
-                    truth = block.truth[i] - block.truth[j]
-                    yield offset + i, offset + j, truth, one[i] - other[j]
+            shown = list(zip(block.values, block.view_truth, strict=True))
+            for one, here in shown:
+                for other, there in shown:
+                    yield offset + i, offset + j, here[i] - there[j], one[i] - other[j]
 
     return _pool(
         parts(),

@@ -7,18 +7,22 @@ printed figures and nothing else; `validation.paper.prose` holds those said in t
 
 from validation.paper.tables import (
     CONSISTENCY_TABLES,
+    GARDEN_COLUMNS,
     ConsistencyTable,
     consistency_table,
     garden_correlation,
+    garden_rank_move,
     garden_table,
     ranking_table,
 )
 
 __all__ = [
     "CONSISTENCY_TABLES",
+    "GARDEN_COLUMNS",
     "ConsistencyTable",
     "consistency_table",
     "garden_correlation",
+    "garden_rank_move",
     "garden_table",
     "ranking_table",
 ]

@@ -60,6 +60,25 @@ def garden_correlation(first: str, second: str) -> float:
     return float(stats.spearmanr(frame[first], frame[second]).statistic)
 
 
+GARDEN_COLUMNS = {  # of table 4, by our name for the paper's measure
+    "axis_ratio": "eccentricity",
+    "ellipse_error_px2": "ellipse_error",
+    "sphericity_2d": "sphericity_2d",
+    "angularity_2d_deg": "angularity_2d",
+    "ellipsoid_error_m2": "ellipsoid_error",
+    "sphericity_3d": "sphericity_3d",
+    "angularity_3d_per_m": "angularity_3d",
+}
+GARDEN_TWICE = ((13, 18), (28, 33))  # Bamm-Bamm and Flat Top, each in two images
+
+
+def garden_rank_move(column: str) -> float:
+    """Return how far the rocks seen twice move in table 4, mean, as a share of its 38 places."""
+    ranks = garden_table()[column].rank()
+    moves = [abs(ranks[one] - ranks[other]) for one, other in GARDEN_TWICE]
+    return float(np.mean(moves) / len(ranks))
+
+
 def ranking_table() -> pd.Series:
     """Return table 5: the 3-D angularity of the 38 rocks of table 4, from least to most."""
     return _read("table5.csv").set_index("rock")["angularity_3d"]

@@ -7,6 +7,7 @@ from validation.claims import all_claims
 from validation.report.words import interval, number
 from validation.run import Run
 from validation.scores import Key, Score
+from validation.suite import YardExperiment
 
 _TRUTHS = {
     "truth_angularity": "angularity",
@@ -38,10 +39,13 @@ class Board:
 
 
 def leaderboards(run: Run) -> tuple[Board, ...]:
-    """Return a board for each experiment and truth, the best order first."""
+    """Return a board for each experiment but sweeps and each truth, the best order first."""
     scores = {score.name: score for score in run.scores}
     entries: dict[tuple[str, str], list[tuple[Score, float]]] = {}
+    swept = {e.name for e in run.suite.experiments if isinstance(e, YardExperiment) and e.sweep}
     for claim in all_claims(run.suite):
+        if claim.experiment in swept:
+            continue
         parts = (claim.experiment, claim.method, claim.series, claim.measure)
         cv = scores.get(Key(*parts, "cv").name)
         board = entries.setdefault((claim.experiment, _TRUTHS[claim.truth]), [])

@@ -9,13 +9,16 @@ from markupsafe import Markup, escape
 from validation.naming import REFERENCE, title_of
 from validation.paper import CONSISTENCY_TABLES
 from validation.report.charts import view_key
+from validation.report.garden import garden_tables
 from validation.report.leaderboard import leaderboards
 from validation.report.paper import paper_values
 from validation.report.provenance import seeds, versions
 from validation.report.sections import segmentation_section, shapes_section, yard_section
+from validation.report.sweeps import sweep_section
 from validation.report.words import interval, number
 from validation.run import Run
 from validation.scores.agreement import STATISTICS
+from validation.scores.garden import is_garden
 from validation.suite import SegmentationExperiment, ShapesExperiment, YardExperiment
 
 
@@ -54,7 +57,8 @@ def page_html(run: Run, *, command: str, seconds: float) -> str:
     )
     environment.filters |= {"number": number, "title_of": title_of, "breakable": _breakable}
     environment.globals |= {"interval": interval, "view_key": view_key, "isfinite": math.isfinite}
-    yards = [e for e in run.suite.experiments if isinstance(e, YardExperiment)]
+    rocks = [e for e in run.suite.experiments if isinstance(e, YardExperiment)]
+    yards = [experiment for experiment in rocks if experiment.sweep is None]
     shapes = [e for e in run.suite.experiments if isinstance(e, ShapesExperiment)]
     html: str = environment.from_string(_resource("page.html")).render(
         run=run,
@@ -65,8 +69,10 @@ def page_html(run: Run, *, command: str, seconds: float) -> str:
         beside={
             e.name: _beside_paper(run, e)
             for e in yards
-            if "angularity" in e.varied and REFERENCE in e.methods
+            if "angularity" in e.varied and REFERENCE in e.methods and not is_garden(e)
         },
+        gardens={e.name: garden_tables(run, e) for e in yards if is_garden(e)},
+        sweeps=[sweep_section(run, e) for e in rocks if e.sweep is not None],
         segmentations=[
             segmentation_section(run, e)
             for e in run.suite.experiments

@@ -34,6 +34,7 @@ def _score(score: Score) -> dict[str, object]:
         "better": score.better,
         "low": _number(score.low),
         "high": _number(score.high),
+        "p": _number(score.p),
     }
 
 

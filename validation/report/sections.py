@@ -74,7 +74,8 @@ class ShapesSection:
     pictures: tuple[ShownPicture, ...]
 
 
-def _own_pictures(run: Run, name: str) -> tuple[ShownPicture, ...]:
+def own_pictures(run: Run, name: str) -> tuple[ShownPicture, ...]:
+    """Return an experiment's pictures, its share of what the page can hold."""
     spent = sum(p.size_bytes for p in run.pictures)
     share = min(1.0, MAX_PICTURE_BYTES / spent) if spent else 1.0
     own = [p for p in run.pictures if p.place.experiment == name]
@@ -149,7 +150,7 @@ def yard_section(run: Run, experiment: YardExperiment) -> YardSection:
             (title_of_claim(claim), unit_of(claim.measure), rank_table(first, claim))
             for claim in claims
         ),
-        pictures=_own_pictures(run, experiment.name),
+        pictures=own_pictures(run, experiment.name),
         rocks=len(true_rocks[["scene", "instance"]].drop_duplicates()),
         detected=int((shown["status"] == "matched").sum()),
         eligible=len(shown),
@@ -198,7 +199,7 @@ def segmentation_section(run: Run, experiment: SegmentationExperiment) -> Segmen
             )
             for way in experiment.series
         ),
-        pictures=_own_pictures(run, experiment.name),
+        pictures=own_pictures(run, experiment.name),
     )
 
 
@@ -222,5 +223,5 @@ def shapes_section(run: Run, experiment: ShapesExperiment) -> ShapesSection:
             )
         )
     return ShapesSection(
-        experiment=experiment, rows=tuple(rows), pictures=_own_pictures(run, experiment.name)
+        experiment=experiment, rows=tuple(rows), pictures=own_pictures(run, experiment.name)
     )

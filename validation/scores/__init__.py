@@ -4,9 +4,9 @@ from collections.abc import Sequence
 
 import pandas as pd
 
-from validation.claims import claims_of
+from validation.claims import claims_of, view_claims_of
 from validation.gates import Found, Gate
-from validation.scores import segmentation, shapes, yard
+from validation.scores import garden, segmentation, shapes, yard
 from validation.scores.score import Definition, Key, Score, estimate
 from validation.suite import Experiment, SegmentationExperiment, Suite, YardExperiment
 
@@ -27,7 +27,8 @@ def _of_experiment(suite: Suite, experiment: Experiment) -> Sequence[Definition]
         return segmentation.definitions(experiment)
     claims = claims_of(suite, experiment)
     if isinstance(experiment, YardExperiment):
-        return yard.definitions(experiment, claims)
+        field = garden.definitions(experiment) if garden.is_garden(experiment) else ()
+        return (*yard.definitions(experiment, claims, view_claims_of(suite, experiment)), *field)
     return shapes.definitions(claims)
 
 

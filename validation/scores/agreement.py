@@ -12,9 +12,10 @@ from validation.agreement import (
     across_views,
     between_views,
     coefficients_of_variation,
+    concordance,
     divide_by_view_means,
     intraclass_correlation,
-    kendall_w,
+    rank_moves,
     share_in_order,
     tau_b,
     within_views,
@@ -56,11 +57,23 @@ def weighted_mean(values: NDArray[np.float64]) -> Estimate:
     return Estimate(float(values.mean()), int(values.size), int(values.size), mean)
 
 
-def _complete_rocks(blocks: Sequence[Block]) -> int:
-    return sum(block.complete().shape[1] for block in blocks)
+def _concordance(blocks: Sequence[Block]) -> Estimate:
+    found = concordance(blocks)
+    complete = sum(block.complete().shape[1] for block in blocks)
+    return Estimate(found.w, complete, found.rocks, found.weighted, p_value=found.p_value)
 
 
-STATISTICS = (
+def _agreement(blocks: Sequence[Block]) -> Estimate:
+    found = intraclass_correlation(blocks)
+    return Estimate(found.icc_2_1, found.rocks, interval=found.icc_2_1_interval)
+
+
+def _consistency(blocks: Sequence[Block]) -> Estimate:
+    found = intraclass_correlation(blocks)
+    return Estimate(found.icc_3_1, found.rocks, interval=found.icc_3_1_interval)
+
+
+ORDERS = (
     Statistic(
         "tau",
         "order within a view against the truth (Kendall's τ_b)",
@@ -77,13 +90,16 @@ STATISTICS = (
         "higher",
         lambda blocks: _share(across_views(blocks)),
     ),
+)
+STATISTICS = (
+    *ORDERS,
     Statistic(
         "kendall_w",
         "agreement of the views' rankings (Kendall's W)",
         "1",
         "rocks",
         "higher",
-        lambda blocks: Estimate(kendall_w(blocks), _complete_rocks(blocks)),
+        _concordance,
     ),
     Statistic(
         "tau_views",
@@ -110,12 +126,20 @@ STATISTICS = (
         lambda blocks: weighted_mean(coefficients_of_variation(divide_by_view_means(blocks))),
     ),
     Statistic(
+        "rank_move",
+        "move of a rock's rank between two views, share of the ranking",
+        "1",
+        "rocks",
+        "lower",
+        lambda blocks: weighted_mean(rank_moves(blocks)),
+    ),
+    Statistic(
         "icc_2_1",
         "agreement of values: ICC(2,1) on logs",
         "1",
         "rocks",
         "higher",
-        lambda blocks: Estimate(intraclass_correlation(blocks).icc_2_1, _complete_rocks(blocks)),
+        _agreement,
     ),
     Statistic(
         "icc_3_1",
@@ -123,6 +147,6 @@ STATISTICS = (
         "1",
         "rocks",
         "higher",
-        lambda blocks: Estimate(intraclass_correlation(blocks).icc_3_1, _complete_rocks(blocks)),
+        _consistency,
     ),
 )

@@ -11,7 +11,8 @@ def blocks_of(records: pd.DataFrame, claim: Claim) -> tuple[Block, ...]:
     """Return a block for each scene of the claim's experiment, series and method.
 
     Only rocks that the view shows well enough (`eligible`) count; a rock that was not found, or
-    whose measure is NaN, is NaN. Rocks without the truth in question are left out.
+    whose measure is NaN, is NaN. Rocks without the truth in question are left out. The truth is
+    (rocks,), or (views, rocks) for a claim on what each view shows.
     """
     own = records[
         (records["experiment"] == claim.experiment)
@@ -32,6 +33,11 @@ def blocks_of(records: pd.DataFrame, claim: Claim) -> tuple[Block, ...]:
         rocks, rock_index = np.unique(instance[part], return_inverse=True)
         table = np.full((views.size, rocks.size), np.nan)
         table[view_index, rock_index] = value[part]
+        if claim.per_view:
+            seen = np.full_like(table, np.nan)
+            seen[view_index, rock_index] = truth[part]
+            blocks.append(Block(values=table, truth=seen))
+            continue
         known = np.empty(rocks.size)
         known[rock_index] = truth[part]
         keep = np.isfinite(known)

@@ -74,11 +74,29 @@ def _flat(blocks: Sequence[Block], *, less_truth: bool) -> tuple[_Values, NDArra
     """Return all values of all blocks, or their differences from the truth, with their rocks."""
     values, rocks, count = [np.empty(0)], [np.empty(0, np.intp)], 0
     for block in blocks:
-        shown = block.values - block.truth if less_truth else block.values
+        shown = block.values - block.view_truth if less_truth else block.values
         values.append(shown.ravel())
         rocks.append(np.tile(np.arange(block.rocks) + count, block.values.shape[0]))
         count += block.rocks
     return np.concatenate(values), np.concatenate(rocks), count
+
+
+def _slope(blocks: Sequence[Block]) -> Estimate:
+    """Return the least-squares slope of measured on true values; 1 is calibrated."""
+    values, rock, rocks = _flat(blocks, less_truth=False)
+    truth = np.concatenate([np.empty(0), *(block.view_truth.ravel() for block in blocks)])
+    keep = np.isfinite(values) & np.isfinite(truth)
+    values, truth, rock = values[keep], truth[keep], rock[keep]
+
+    def slope(weights: _Values) -> float:
+        own = weights[rock]
+        if not own.sum() > 0:
+            return float("nan")
+        off = truth - np.average(truth, weights=own)
+        spread = float(own @ off**2)
+        return float(own @ (off * values)) / spread if spread > 0 else float("nan")
+
+    return Estimate(slope(np.ones(rocks)), int(values.size), rocks, slope)
 
 
 _LEVEL = Statistic(
@@ -105,8 +123,17 @@ _ERROR = Statistic(
     "lower",
     lambda blocks: _pooled(*_flat(blocks, less_truth=True), _rms),
 )
+_SLOPE = Statistic(
+    "slope",
+    "slope of measured on true values",
+    "1",
+    "rock views",
+    "neither",
+    _slope,
+)
+DIFFERENCES = (_BIAS, _ERROR, _SLOPE)
 
 
 def of(claim: Claim) -> tuple[Statistic, ...]:
     """Return the statistics of a claim's level; of its error where it has a truth of its own."""
-    return (_LEVEL, _BIAS, _ERROR) if claim.same_quantity else (_LEVEL,)
+    return (_LEVEL, *DIFFERENCES) if claim.same_quantity else (_LEVEL,)

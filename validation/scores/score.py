@@ -1,5 +1,6 @@
 """A score and how it is defined."""
 
+import math
 import zlib
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -37,7 +38,10 @@ class Key:
 
 @dataclass(frozen=True)
 class Score:
-    """A number with its unit, what it was counted over, and its 95 % interval (NaN: none)."""
+    """A number with its unit, what it was counted over, and its 95 % interval (NaN: none).
+
+    `p` is the chance of such a value without any agreement, where a score has a test.
+    """
 
     key: Key
     title: str
@@ -48,6 +52,7 @@ class Score:
     better: Better
     low: float
     high: float
+    p: float = math.nan
 
     @property
     def name(self) -> str:
@@ -57,12 +62,14 @@ class Score:
 
 @dataclass(frozen=True)
 class Estimate:
-    """A value and its count; with `weighted`, also what a bootstrap over rocks needs."""
+    """A value and its count, and how its interval is found: given, or by a bootstrap over rocks."""
 
     value: float
     count: int
     rocks: int = 0
-    weighted: Callable[[NDArray[np.float64]], float] | None = None
+    weighted: Callable[[NDArray[np.float64]], float] | None = None  # the value of weighted rocks
+    interval: tuple[float, float] | None = None
+    p_value: Callable[[], float] | None = None
 
 
 @dataclass(frozen=True)
@@ -90,7 +97,7 @@ def score_rng(name: str) -> np.random.Generator:
 def estimate(definition: Definition, records: pd.DataFrame) -> Score:
     """Compute a score with its interval."""
     found = definition.compute(records)
-    low = high = float("nan")
+    low, high = found.interval or (math.nan, math.nan)
     if found.weighted is not None:
         low, high = bootstrap_interval(found.weighted, found.rocks, rng=score_rng(definition.name))
     return Score(
@@ -103,4 +110,5 @@ def estimate(definition: Definition, records: pd.DataFrame) -> Score:
         better=definition.better,
         low=low,
         high=high,
+        p=math.nan if found.p_value is None else found.p_value(),
     )

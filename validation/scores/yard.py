@@ -1,16 +1,19 @@
 """Scores of rocks seen from several views."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import pandas as pd
 
 from validation.claims import Claim
 from validation.naming import REFERENCE, title_of_claim, unit_of
 from validation.scores import detection, levels
-from validation.scores.agreement import STATISTICS, Statistic
+from validation.scores.agreement import ORDERS, STATISTICS, Statistic
 from validation.scores.blocks import blocks_of
 from validation.scores.score import Better, Definition, Estimate, Key
 from validation.suite import YardExperiment
+
+VIEW_PREFIX = "view_"  # of statistics against the outline that a view shows
 
 _Compute = Callable[[pd.DataFrame], Estimate]
 _OF_METHOD: tuple[tuple[str, str, str, str, Better, _Compute], ...] = (
@@ -50,30 +53,34 @@ _OF_METHOD: tuple[tuple[str, str, str, str, Better, _Compute], ...] = (
 )
 
 
-def _own(experiment: str, method: str, compute: _Compute) -> _Compute:
+def _own(key: Key, compute: _Compute) -> _Compute:
     return lambda records: compute(
-        records[(records["experiment"] == experiment) & (records["method"] == method)]
+        records[
+            (records["experiment"] == key.experiment)
+            & (records["series"] == key.series)
+            & (records["method"] == key.method)
+        ]
     )
 
 
-def _of_method(experiment: YardExperiment, method: str) -> list[Definition]:
+def _of_method(experiment: YardExperiment, series: str, method: str) -> list[Definition]:
     suffix = "" if method == REFERENCE else f" ({method})"
     return [
         Definition(
-            key=Key(experiment.name, method, "", "", key),
+            key=(key := Key(experiment.name, method, series, "", statistic)),
             title=title + suffix,
             unit=unit,
             counted=counted,
             better=better,
-            compute=_own(experiment.name, method, compute),
+            compute=_own(key, compute),
         )
-        for key, title, unit, counted, better, compute in _OF_METHOD
+        for statistic, title, unit, counted, better, compute in _OF_METHOD
     ]
 
 
 def _of_claim(claim: Claim, statistic: Statistic) -> Definition:
     return Definition(
-        key=Key(claim.experiment, claim.method, "", claim.measure, statistic.key),
+        key=Key(claim.experiment, claim.method, claim.series, claim.measure, statistic.key),
         title=f"{title_of_claim(claim)}: {statistic.title}",
         unit=statistic.unit or unit_of(claim.measure) or "1",
         counted=statistic.counted,
@@ -82,8 +89,29 @@ def _of_claim(claim: Claim, statistic: Statistic) -> Definition:
     )
 
 
-def definitions(experiment: YardExperiment, claims: Sequence[Claim]) -> tuple[Definition, ...]:
+def _of_view(statistic: Statistic) -> Statistic:
+    """Return a statistic of what each view truly shows under a name of its own."""
+    return replace(
+        statistic,
+        key=VIEW_PREFIX + statistic.key,
+        title=f"{statistic.title}, by the outline that the view shows",
+    )
+
+
+def definitions(
+    experiment: YardExperiment, claims: Sequence[Claim], view_claims: Sequence[Claim]
+) -> tuple[Definition, ...]:
     """Return the scores of one experiment: what each method found, then each claim's statistics."""
-    found = [d for method in experiment.methods for d in _of_method(experiment, method)]
+    found = [
+        definition
+        for series in experiment.series
+        for method in experiment.methods
+        for definition in _of_method(experiment, series, method)
+    ]
     ranked = [_of_claim(claim, s) for claim in claims for s in (*STATISTICS, *levels.of(claim))]
-    return (*found, *ranked)
+    shown = [
+        _of_claim(claim, _of_view(statistic))
+        for claim in view_claims
+        for statistic in (*ORDERS, *(levels.DIFFERENCES if claim.same_quantity else ()))
+    ]
+    return (*found, *ranked, *shown)

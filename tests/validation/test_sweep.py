@@ -1,0 +1,78 @@
+"""Sweeps: the same rocks with one key of the scene at several values."""
+
+import msgspec
+import pandas as pd
+import pytest
+
+from synth.spec import SceneSpec
+from validation.scores import definitions
+from validation.store import unit_key
+from validation.suite import Suite, YardExperiment
+from validation.sweep import Sweep
+from validation.units import run_unit, units_of
+
+
+def sweep(key, values) -> Sweep:
+    return Sweep(key=key, values=values, title="what is turned")
+
+
+def experiment(turned: Sweep, **scene) -> YardExperiment:
+    table = {"camera": {"preset": "imp", "distance_m": 5.0}, "views": {"count": 2}} | scene
+    return YardExperiment(
+        name="turned",
+        title="Turned",
+        seed=100,
+        scenes=1,
+        varied=("angularity",),
+        scene=msgspec.convert(table, SceneSpec),
+        sweep=turned,
+        methods=("paper",),
+        pictured=0,
+    )
+
+
+def test_steps_are_named_by_their_values() -> None:
+    assert sweep("a", (0.5, 2.0, 1e-3)).steps == ("0p5", "2", "0p001")
+    assert sweep("a", ("none", "stereo")).steps == ("none", "stereo")
+    assert sweep("a", ((0.0, 0.0), (0.1, 0.25))).steps == ("0-0", "0p1-0p25")
+
+
+def test_a_step_changes_its_key_alone() -> None:
+    turned = experiment(sweep("camera.distance_m", (4.0, 8.0)))
+    near, far = (turned.scene_at(step) for step in turned.series)
+    assert (near.camera.distance_m, far.camera.distance_m) == (4.0, 8.0)
+    back = msgspec.structs.replace(far.camera, distance_m=4.0)
+    assert msgspec.structs.replace(far, camera=back) == near
+
+
+@pytest.mark.parametrize(
+    ("key", "values", "named"),
+    [
+        ("camera.distance_m", (4.0, -1.0), "distance_m"),
+        ("camera.distance", (4.0, 5.0), "camera.distance"),
+        ("camera.distance_m.x", (4.0, 5.0), "camera.distance_m.x"),
+        ("noise.kind", ("none", "radar"), "noise.kind"),
+        ("camera.distance_m", (4.0, 4.0), "differ"),
+    ],
+)
+def test_mistakes_are_named(key, values, named) -> None:
+    with pytest.raises(ValueError, match=named):
+        experiment(sweep(key, values))
+
+
+def true_rocks(records: pd.DataFrame) -> pd.DataFrame:
+    return records[records["status"] != "extra"].reset_index(drop=True)
+
+
+def test_every_step_shows_the_same_rocks_and_has_its_own_scores() -> None:
+    turned = experiment(sweep("noise.kind", ("none", "stereo")), rocks={"count": 2})
+    suite = Suite(name="s", title="S", experiments=(turned,), gates=())
+    units = units_of(suite)
+    assert len({unit_key(unit) for unit in units}) == 2
+    exact, noisy = (true_rocks(run_unit(unit).records) for unit in units)
+    assert set(exact["series"]) == {"none"}
+    truths = [name for name in exact.columns if name.startswith("truth_")]
+    pd.testing.assert_frame_equal(exact[truths], noisy[truths])
+    assert not exact["axis_a_m"].equals(noisy["axis_a_m"])
+    names = {definition.name for definition in definitions(suite)}
+    assert {"turned.none.recall", "turned.stereo.angularity_2d_deg.tau"} <= names

@@ -1,0 +1,115 @@
+"""What the page shows of a sweep: each measure's order and variation over the steps."""
+
+import math
+from dataclasses import dataclass
+
+from markupsafe import Markup
+
+from rockshape.measures import METHODS
+from validation.report.lines import Line, line_chart
+from validation.report.sections import ShownPicture, own_pictures
+from validation.run import Run
+from validation.scores import Key, Score
+from validation.suite import YardExperiment
+
+_CHARTED = (  # statistic, heading, the least top of its axis
+    ("tau", "Order within a view (τ_b)", 1.0),
+    ("cv", "Variation of a rock between views (CV)", 0.25),
+)
+
+
+@dataclass(frozen=True)
+class SweepSection:
+    """A sweep's charts by what they show, its recall by method and step, its pictures."""
+
+    experiment: YardExperiment
+    charts: tuple[tuple[str, tuple[tuple[str, Markup], ...]], ...]  # heading: (measure, chart)
+    recall: tuple[tuple[str, tuple[Score, ...]], ...]  # method, a score a step
+    measured: tuple[tuple[str, tuple[float, ...]], ...]  # method and measure, share with a value
+    pictures: tuple[ShownPicture, ...]
+
+
+def _columns(experiment: YardExperiment) -> dict[str, dict[str, str]]:
+    """Return {measure's title: {method: column}}, in the order of the methods' measures."""
+    columns: dict[str, dict[str, str]] = {}
+    for method in experiment.methods:
+        for measure in METHODS[method]:
+            columns.setdefault(measure.title, {})[method] = measure.column
+    return columns
+
+
+def _line(
+    scores: dict[str, Score], experiment: YardExperiment, method: str, column: str, statistic: str
+) -> Line:
+    found = [
+        scores.get(Key(experiment.name, method, step, column, statistic).name)
+        for step in experiment.series
+    ]
+    return Line(
+        name=method,
+        style=experiment.methods.index(method),
+        values=tuple(score.value if score else math.nan for score in found),
+        lows=tuple(score.low if score else math.nan for score in found),
+        highs=tuple(score.high if score else math.nan for score in found),
+    )
+
+
+def _measured(run: Run, experiment: YardExperiment) -> tuple[tuple[str, tuple[float, ...]], ...]:
+    """Return the share of found rocks in plain view that got a value, where not all did."""
+    own = run.records[run.records["experiment"] == experiment.name]
+    shown = own[(own["status"] == "matched") & own["eligible"].astype(bool)]
+    rows = []
+    for title, columns in _columns(experiment).items():
+        for method, column in columns.items():
+            of_method = shown[shown["method"] == method]
+            shares = of_method[column].notna().groupby(of_method["series"]).mean()
+            values = tuple(float(shares.get(step, math.nan)) for step in experiment.series)
+            if any(value < 1 for value in values):
+                rows.append((f"{title} ({method})", values))
+    return tuple(rows)
+
+
+def sweep_section(run: Run, experiment: YardExperiment) -> SweepSection:
+    """Return what the page shows of an experiment with a sweep."""
+    if experiment.sweep is None:
+        raise ValueError(f"{experiment.name}: expected an experiment with a sweep")
+    scores = {score.name: score for score in run.scores}
+    sweep = experiment.sweep
+    shown = [step.replace("p", ".") if step[0].isdigit() else step for step in sweep.steps]
+    charts = tuple(
+        (
+            heading,
+            tuple(
+                (
+                    title,
+                    line_chart(
+                        [
+                            _line(scores, experiment, method, column, statistic)
+                            for method, column in columns.items()
+                        ],
+                        steps=shown,
+                        x_title=sweep.title,
+                        title=f"{title}: {heading}",
+                        most=most,
+                    ),
+                )
+                for title, columns in _columns(experiment).items()
+            ),
+        )
+        for statistic, heading, most in _CHARTED
+    )
+    return SweepSection(
+        experiment=experiment,
+        charts=charts,
+        recall=tuple(
+            (
+                method,
+                tuple(
+                    scores[Key(experiment.name, method, s, "", "recall").name] for s in sweep.steps
+                ),
+            )
+            for method in experiment.methods
+        ),
+        measured=_measured(run, experiment),
+        pictures=own_pictures(run, experiment.name),
+    )

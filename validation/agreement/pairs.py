@@ -7,6 +7,7 @@ bootstrap over rocks (not over pairs, which are not independent) needs.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,11 +35,44 @@ class Pairs:
         """The number of pairs found in the expected order."""
         return int(np.count_nonzero((self.expected != 0) & (self.expected == self.found)))
 
-    def weights(self, rock_weights: NDArray[np.float64] | None) -> NDArray[np.float64]:
-        """Return one weight a pair: the product of its rocks' weights, 1 without weights."""
+    @cached_property
+    def tallies(self) -> "Tallies":
+        """The pairs summed by their two rocks."""
+        couples, couple = np.unique(self.first * self.rocks + self.second, return_inverse=True)
+
+        def total(each: NDArray[np.int8]) -> NDArray[np.float64]:
+            weights = each.astype(np.float64)
+            return np.bincount(couple, weights=weights, minlength=couples.size).astype(np.float64)
+
+        return Tallies(
+            first=couples // max(1, self.rocks),
+            second=couples % max(1, self.rocks),
+            expected=total(self.expected**2),
+            found=total(self.found**2),
+            agreed=total(self.expected * self.found),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Tallies:
+    """Sums over the pairs of each two rocks: all that a weighted statistic needs."""
+
+    first: NDArray[np.intp]  # (couples,)
+    second: NDArray[np.intp]  # (couples,)
+    expected: NDArray[np.float64]  # (couples,) number of pairs with an expected order
+    found: NDArray[np.float64]  # (couples,) number of pairs with a measured order
+    agreed: NDArray[np.float64]  # (couples,) concordant less discordant pairs
+
+    def sums(self, rock_weights: NDArray[np.float64] | None) -> tuple[float, float, float]:
+        """Return the sums of expected, found and agreed, a pair weighing its rocks' product."""
         if rock_weights is None:
-            return np.ones(self.first.size)
-        return rock_weights[self.first] * rock_weights[self.second]
+            return float(self.expected.sum()), float(self.found.sum()), float(self.agreed.sum())
+        weights = rock_weights[self.first] * rock_weights[self.second]
+        return (
+            float(weights @ self.expected),
+            float(weights @ self.found),
+            float(weights @ self.agreed),
+        )
 
 
 def _signs(differences: NDArray[np.float64], margin: float) -> NDArray[np.int8]:
@@ -140,10 +174,9 @@ def tau_b(pairs: Pairs, rock_weights: NDArray[np.float64] | None = None) -> floa
     for several, concordant and discordant pairs are pooled, never the coefficients averaged.
     NaN when either side has no order at all.
     """
-    weights = pairs.weights(rock_weights)
-    expected, found = pairs.expected.astype(np.float64), pairs.found.astype(np.float64)
-    scale = np.sqrt((weights @ expected**2) * (weights @ found**2))
-    return float(weights @ (expected * found) / scale) if scale > 0 else float("nan")
+    expected, found, agreed = pairs.tallies.sums(rock_weights)
+    scale = np.sqrt(expected * found)
+    return agreed / float(scale) if scale > 0 else float("nan")
 
 
 def share_in_order(pairs: Pairs, rock_weights: NDArray[np.float64] | None = None) -> float:
@@ -151,7 +184,5 @@ def share_in_order(pairs: Pairs, rock_weights: NDArray[np.float64] | None = None
 
     Pairs without an expected order are left out; NaN when none is left.
     """
-    weights = pairs.weights(rock_weights) * (pairs.expected != 0)
-    credit = 0.5 * (1.0 + pairs.expected.astype(np.float64) * pairs.found)
-    total = weights.sum()
-    return float(weights @ credit / total) if total > 0 else float("nan")
+    expected, _, agreed = pairs.tallies.sums(rock_weights)
+    return 0.5 * (1.0 + agreed / expected) if expected > 0 else float("nan")

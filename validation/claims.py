@@ -75,6 +75,7 @@ class Claim:
     method: str
     measure: str  # the column
     truth: str  # a column of the records
+    drawn: bool = False  # of drawn shapes, whose roundness is the outline's own
 
     @property
     def per_view(self) -> bool:
@@ -84,7 +85,8 @@ class Claim:
     @property
     def same_quantity(self) -> bool:
         """Whether measure and truth are one quantity, so that their difference is an error."""
-        return (self.measure, self.truth) in _SAME_QUANTITY
+        held = (self.measure, self.truth)
+        return held in _SAME_QUANTITY or (self.drawn and held == ("roundness", "truth_roundness"))
 
 
 def _columns(
@@ -124,7 +126,7 @@ def claims_of(suite: Suite, experiment: Experiment) -> tuple[Claim, ...]:
             if trait in _TRAITS[varied]
         )
     return tuple(
-        Claim(experiment.name, series, method, column, _shape_truth(column, trait))
+        Claim(experiment.name, series, method, column, _shape_truth(column, trait), drawn=True)
         for series in experiment.series
         for method, column, trait in columns
         if trait in _TRAITS[series]

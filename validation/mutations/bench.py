@@ -19,8 +19,6 @@ from validation.scores import gate_scores, score_names
 from validation.suite import SegmentationExperiment, Suite, YardExperiment
 from validation.units import SegmentationUnit, View, units_of, views_of
 
-METHOD = "paper"
-
 
 @dataclass(frozen=True)
 class Caught:
@@ -67,15 +65,15 @@ class Bench:
 
 
 def _joined(view: View, found: Measurement, table: pd.DataFrame) -> pd.DataFrame:
-    place = replace(view.place, method=METHOD)
+    place = replace(view.place, method=found.method)
     return join(place, view.truth, view.instances, found.labels, table, min_iou=view.min_iou)
 
 
 @contextmanager
-def _measures(evaluate_by_column: Mapping[str, object]) -> Iterator[None]:
+def _measures(method: str, evaluate_by_column: Mapping[str, object]) -> Iterator[None]:
     """Let the method consist of the mutated measures alone."""
-    whole = METHODS[METHOD]
-    METHODS[METHOD] = tuple(
+    whole = METHODS[method]
+    METHODS[method] = tuple(
         replace(measure, evaluate=evaluate_by_column[measure.column])  # type: ignore[arg-type]
         for measure in whole
         if measure.column in evaluate_by_column
@@ -83,14 +81,14 @@ def _measures(evaluate_by_column: Mapping[str, object]) -> Iterator[None]:
     try:
         yield
     finally:
-        METHODS[METHOD] = whole
+        METHODS[method] = whole
 
 
 def _mutated(view: View, found: Measurement, mutation: Mutation) -> pd.DataFrame:
     table = to_frame(found)
     if mutation.evaluate:
-        with _measures(mutation.evaluate):
-            again = measure(view.observation, method=METHOD, labels=found.labels)
+        with _measures(found.method, mutation.evaluate):
+            again = measure(view.observation, method=found.method, labels=found.labels)
             columns = list(mutation.evaluate)
             table[columns] = to_frame(again)[columns].to_numpy()
     if mutation.finds_anew:
@@ -100,29 +98,34 @@ def _mutated(view: View, found: Measurement, mutation: Mutation) -> pd.DataFrame
         with ExitStack() as stack:
             if mutation.patch is not None:
                 stack.enter_context(patch.object(*mutation.patch))
-            found = measure(seen, method=METHOD, labels=labels)
+            found = measure(seen, method=found.method, labels=labels)
         table = to_frame(found)
     if mutation.table is not None:
         table = mutation.table(table)
     return _joined(view, found, table)
 
 
-def prepare_bench(suite: Suite, *, scenes: int) -> Bench:
-    """Make the first scenes of each experiment and measure them by the paper's method.
+def part_of(suite: Suite, *, scenes: int, method: str) -> Suite:
+    """Return a method's part of a suite: its first scenes and the gates on its scores.
 
     Gates of other methods and experiments of segmentation, which measure nothing, are left out.
     """
     experiments = tuple(
-        msgspec.structs.replace(e, methods=(METHOD,), scenes=min(scenes, e.scenes))
+        msgspec.structs.replace(e, methods=(method,), scenes=min(scenes, e.scenes))
         if isinstance(e, YardExperiment)
-        else msgspec.structs.replace(e, methods=(METHOD,))
+        else msgspec.structs.replace(e, methods=(method,))
         for e in suite.experiments
         if not isinstance(e, SegmentationExperiment)
     )
     small = msgspec.structs.replace(suite, experiments=experiments)
-    small = msgspec.structs.replace(small, gates=gates_on(suite.gates, score_names(small)))
+    return msgspec.structs.replace(small, gates=gates_on(suite.gates, score_names(small)))
+
+
+def prepare_bench(suite: Suite, *, scenes: int, method: str) -> Bench:
+    """Make the first scenes of each experiment and measure them by one method."""
+    small = part_of(suite, scenes=scenes, method=method)
     views = [
-        (view, measure(view.observation, method=METHOD, labels=view.given))
+        (view, measure(view.observation, method=method, labels=view.given))
         for unit in units_of(small)
         if not isinstance(unit, SegmentationUnit)
         for view in views_of(unit)[0]

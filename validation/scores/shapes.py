@@ -77,7 +77,7 @@ _ANY = (
     ),
     _Statistic("level", "mean value", "", "shapes", "neither", _level),
 )
-_ERROR = _Statistic("error", "RMS difference from the true ratio", "1", "shapes", "lower", _error)
+_ERROR = _Statistic("error", "RMS difference from the true value", "1", "shapes", "lower", _error)
 
 
 def _definition(claim: Claim, statistic: _Statistic) -> Definition:

@@ -1,4 +1,4 @@
-"""The errors: each one was made somewhere, or is easily made."""
+"""Errors of the paper's method: each one was made somewhere, or is easily made."""
 
 from dataclasses import replace
 
@@ -14,12 +14,17 @@ from rockshape.measures.ellipse_error import ellipse_error_px2
 from rockshape.observation import Observation
 from rockshape.rock_view import RockView
 from validation.mutations.mutation import Mutation
+from validation.mutations.shared import (
+    FORM,
+    SHAPES,
+    YARD,
+    constant,
+    lost,
+    shuffled,
+    stale,
+    unsorted,
+)
 
-_SHAPES = ("shapes",)
-_YARD = ("yard",)
-_ROCKS = ("yard", "form")
-_SCENE = ["experiment", "series", "scene"]
-_SEED = 60
 _HEIGHT = Plane.height_m
 
 
@@ -79,11 +84,6 @@ def _swapped(table: pd.DataFrame) -> pd.DataFrame:
     return table.assign(row=table["col"], col=table["row"])
 
 
-def _unsorted(table: pd.DataFrame) -> pd.DataFrame:
-    a, b, c = (table[name].to_numpy() for name in ("axis_a_m", "axis_b_m", "axis_c_m"))
-    return table.assign(sphericity_3d=np.cbrt(a * a / (b * c)))
-
-
 def _millimetres(table: pd.DataFrame) -> pd.DataFrame:
     axes = {name: 1e3 * table[name] for name in ("axis_a_m", "axis_b_m", "axis_c_m")}
     return table.assign(**axes, ellipsoid_error_m2=1e6 * table["ellipsoid_error_m2"])
@@ -94,134 +94,86 @@ def _diameters(table: pd.DataFrame) -> pd.DataFrame:
     return table.assign(**{name: 2.0 * table[name] for name in axes})
 
 
-def _constant(column: str) -> Mutation:
-    def fill(table: pd.DataFrame) -> pd.DataFrame:
-        return table.assign(**{column: 1.0})
-
-    experiments = (*_SHAPES, *_ROCKS)
-    return Mutation(f"constant {column}", f"{column} is 1 for every rock", experiments, table=fill)
-
-
-def _lost(records: pd.DataFrame) -> pd.DataFrame:
-    """Miss one rock in each view."""
-    first = (records["instance"] == 0) & records["experiment"].isin(_ROCKS)
-    return records.assign(
-        status=records["status"].mask(first & (records["status"] == "matched"), "missed")
-    )
-
-
-def _stale(records: pd.DataFrame) -> pd.DataFrame:
-    """Give each scene the truth of rocks dealt anew, as another seed would have made them."""
-    rng = np.random.default_rng(_SEED)
-    fed = records.copy()
-    columns = [
-        name
-        for name in fed.columns
-        if name.startswith("truth_") and name not in ("truth_row", "truth_col")
-    ]
-    for _, scene in fed[fed["status"] != "extra"].groupby(_SCENE, sort=True):
-        instances = np.sort(scene["instance"].unique())
-        dealt = dict(zip(instances, rng.permutation(instances), strict=True))
-        source = scene.drop_duplicates("instance").set_index("instance")[columns]
-        fed.loc[scene.index, columns] = source.loc[scene["instance"].map(dealt)].to_numpy()
-    return fed
-
-
-def _shuffled(column: str) -> Mutation:
-    def deal(records: pd.DataFrame) -> pd.DataFrame:
-        rng = np.random.default_rng(_SEED)
-        fed = records.copy()
-        for _, view in fed[fed["status"] == "matched"].groupby([*_SCENE, "view"], sort=True):
-            fed.loc[view.index, column] = rng.permutation(view[column].to_numpy())
-        return fed
-
-    return Mutation(
-        f"shuffled {column}", f"{column} dealt out among a view's rocks", (), records=deal
-    )
-
-
-MUTATIONS = (
+PAPER = (
     Mutation(
         "alpha off by one",
         "α = 1: triangles with corners two points away too",
-        _SHAPES,
+        SHAPES,
         evaluate={"angularity_2d_deg": lambda rock: _angularity(rock, alpha=1)},
     ),
     Mutation(
         "alpha off by one, up",
         "α = 3: no triangles with corners three points away",
-        _SHAPES,
+        SHAPES,
         evaluate={"angularity_2d_deg": lambda rock: _angularity(rock, alpha=3)},
     ),
     Mutation(
         "beta off by one",
         "β = 10: triangles with corners nine points away too",
-        _SHAPES,
+        SHAPES,
         evaluate={"angularity_2d_deg": lambda rock: _angularity(rock, beta=10)},
     ),
     Mutation(
         "radians for degrees",
         "2-D angularity in radians",
-        _SHAPES,
+        SHAPES,
         evaluate={"angularity_2d_deg": lambda rock: float(np.radians(_angularity(rock)))},
     ),
     Mutation(
         "sum for mean",
         "ellipse error summed, as the text says",
-        _SHAPES,
+        SHAPES,
         evaluate={"ellipse_error_px2": lambda rock: _ellipse_error(rock, total=True)},
     ),
     Mutation(
         "root for square",
         "ellipse error in px",
-        _SHAPES,
+        SHAPES,
         evaluate={"ellipse_error_px2": lambda rock: float(np.sqrt(_ellipse_error(rock)))},
     ),
     Mutation(
         "geometry's eccentricity",
         "√(1 − b²/a²) for the axis ratio",
-        _SHAPES,
+        SHAPES,
         evaluate={"axis_ratio": lambda rock: float(np.sqrt(1.0 - _ratio(rock) ** 2))},
     ),
     Mutation(
         "squared axes",
         "b²/a² for the axis ratio: eigenvalues without their root",
-        _SHAPES,
+        (*SHAPES, *FORM),
         evaluate={"axis_ratio": lambda rock: _ratio(rock) ** 2},
     ),
     Mutation(
         "long over short",
         "the upright box's sides the wrong way round",
-        _SHAPES,
+        SHAPES,
         evaluate={"sphericity_2d": lambda rock: max(rock.mask.shape) / min(rock.mask.shape)},
     ),
     Mutation(
         "sign kept",
         "3-D angularity as printed: bumps and hollows cancel",
-        _YARD,
+        YARD,
         evaluate={"angularity_3d_per_m": _signed},
     ),
     Mutation(
         "sign lost",
         "heights counted downwards: hollows for hills",
-        _YARD,
+        YARD,
         patch=(Plane, "height_m", _below),
     ),
-    Mutation(
-        "depth for distance", "z-depth taken along the ray", _YARD, observe=_depth_as_distance
-    ),
-    Mutation("millimetres", "half-axes and error in mm", _YARD, table=_millimetres),
-    Mutation("axes unsorted", "half-axes in the wrong order", ("form",), table=_unsorted),
-    Mutation("diameters", "diameters for half-axes", _YARD, table=_diameters),
-    Mutation("half a pixel", "corners for pixel centres", _YARD, table=_half_a_pixel),
-    Mutation("rows for columns", "row and column swapped", _YARD, table=_swapped),
-    Mutation("masks one pixel wide", "each mask has a rim of ground", _YARD, labels=_grown),
-    Mutation("a rock lost", "one rock in each view is not found", (), records=_lost),
-    Mutation("ground for rocks", "two patches of ground in each view", _YARD, labels=_with_ground),
-    Mutation("stale truth", "the truth of rocks made anew", (), records=_stale),
+    Mutation("depth for distance", "z-depth taken along the ray", YARD, observe=_depth_as_distance),
+    Mutation("millimetres", "half-axes and error in mm", YARD, table=_millimetres),
+    Mutation("axes unsorted", "half-axes in the wrong order", FORM, table=unsorted),
+    Mutation("diameters", "diameters for half-axes", YARD, table=_diameters),
+    Mutation("half a pixel", "corners for pixel centres", YARD, table=_half_a_pixel),
+    Mutation("rows for columns", "row and column swapped", YARD, table=_swapped),
+    Mutation("masks one pixel wide", "each mask has a rim of ground", YARD, labels=_grown),
+    Mutation("a rock lost", "one rock in each view is not found", (), records=lost),
+    Mutation("ground for rocks", "two patches of ground in each view", YARD, labels=_with_ground),
+    Mutation("stale truth", "the truth of rocks made anew", (), records=stale),
     *(
-        _shuffled(column)
+        shuffled(column)
         for column in ("angularity_2d_deg", "ellipsoid_error_m2", "sphericity_3d", "axis_ratio")
     ),
-    *(_constant(column) for column in ("angularity_2d_deg", "ellipse_error_px2", "sphericity_2d")),
+    *(constant(column) for column in ("angularity_2d_deg", "ellipse_error_px2", "sphericity_2d")),
 )

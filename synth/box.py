@@ -12,6 +12,9 @@ Floats = NDArray[np.float64]
 _MAX_NORMALS = 48  # hull facets tried as a side of the box
 _TURNS = 30  # turns tried about each normal, over a right angle
 _STARTS = 4  # best candidates, each of another normal, that are refined
+_SPREAD, _MORE_STARTS = 64, 16  # directions tried, and refined, where facets are many and small
+_CLEARLY = 1e-6  # by which share theirs must be better: not a turn of the same box
+_HOPE = 10.0  # of the volume, for a turn: a search that is farther than this behind is given up
 _COARSE = 300  # directions whose farthest points stand for all in the first trials
 _FIRST_REACH_RAD, _HALVINGS = 0.03, 21  # down to 1.4e-8 rad
 _GRID = np.stack(np.meshgrid(*[[-1.0, 0.0, 1.0]] * 3), axis=-1).reshape(-1, 3)
@@ -36,14 +39,26 @@ def smallest_box(points_m: Floats, *, margin_m: float = 0.0) -> Box:
 
     Sides flush with a facet of the convex hull, and the principal axes, are tried first; the best
     are refined by a search over rotations, since the optimum need not be flush with any facet
-    (O'Rourke 1985). The half sides of P ⊕ B_r along u are those of P plus r, exactly.
+    (O'Rourke 1985). Of a rough body's many facets only some are tried, so directions all over the
+    sphere are tried as well. The half sides of P ⊕ B_r along u are those of P plus r, exactly.
     Flat or fewer than four points raise scipy's QhullError.
     """
     hull = ConvexHull(points_m)
     corners_m = points_m[hull.vertices]
-    starts = _starts(hull.equations[:, :3], corners_m, margin_m)
+    few_m = _thinned(corners_m)
+    facets = np.unique(hull.equations[:, :3].round(9), axis=0)
+    tried = np.linspace(0, len(facets) - 1, min(len(facets), _MAX_NORMALS)).astype(int)
+    normals = np.concatenate([facets[tried], np.linalg.eigh(np.cov(few_m.T))[1].T])
+    starts = _starts(normals, few_m, margin_m)[:_STARTS]
     found = [_refined(axes, corners_m, margin_m) for axes in starts]
-    return _box(min(found, key=lambda pair: pair[0])[1], corners_m, margin_m)
+    least, best = min(found, key=lambda pair: pair[0])
+    if len(facets) > _MAX_NORMALS:
+        spread = spread_directions(2 * _SPREAD)[:_SPREAD]  # its upper half
+        for axes in _starts(spread, few_m, margin_m)[:_MORE_STARTS]:
+            volume, turned = _refined(axes, corners_m, margin_m, least=least)
+            if volume < least * (1.0 - _CLEARLY):
+                least, best = volume, turned
+    return _box(best, corners_m, margin_m)
 
 
 def nearby_box(points_m: Floats, *, margin_m: float = 0.0) -> Box:
@@ -63,17 +78,16 @@ def _box(axes: Floats, points_m: Floats, margin_m: float) -> Box:
     return Box(axes=rows, half_sides_m=half_sides_m[order], centre_m=axes.T @ ((low + high) / 2.0))
 
 
-def _starts(facets: Floats, corners_m: Floats, margin_m: float) -> Floats:
-    """Return the rotations, (k, 3, 3), that are worth a search: the best turn of each normal.
+def _thinned(corners_m: Floats) -> Floats:
+    """Return the points that are farthest along a few hundred directions, all of fewer points."""
+    if len(corners_m) <= _COARSE:
+        return corners_m
+    return corners_m[np.unique(np.argmax(spread_directions(_COARSE) @ corners_m.T, 1))]
 
-    Many points are first thinned to the farthest along a few hundred directions.
-    """
-    if len(corners_m) > _COARSE:
-        corners_m = corners_m[np.unique(np.argmax(spread_directions(_COARSE) @ corners_m.T, 1))]
-    normals = np.unique(facets.round(9), axis=0)
-    chosen = normals[np.linspace(0, len(normals) - 1, min(len(normals), _MAX_NORMALS)).astype(int)]
-    normals = np.concatenate([chosen, np.linalg.eigh(np.cov(corners_m.T))[1].T])
-    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+
+def _starts(normals: Floats, corners_m: Floats, margin_m: float) -> Floats:
+    """Return the best turn about each normal, (k, 3, 3) rotations, smallest box first."""
+    normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
     second = np.cross(normals, np.eye(3)[np.argmin(np.abs(normals), axis=1)])
     second /= np.linalg.norm(second, axis=1, keepdims=True)
     third = np.cross(normals, second)
@@ -84,7 +98,7 @@ def _starts(facets: Floats, corners_m: Floats, margin_m: float) -> Floats:
     heights_m = np.ptp(normals @ corners_m.T, axis=1) + 2.0 * margin_m
     volumes = widths_m[:, :_TURNS] * widths_m[:, _TURNS:] * heights_m[:, None]
     best_turns = np.argmin(volumes, axis=1)
-    order = np.argsort(volumes.min(axis=1), kind="stable")[:_STARTS]
+    order = np.argsort(volumes.min(axis=1), kind="stable")
     turn_rad = turns_rad[best_turns[order]][:, None]
     first = np.cos(turn_rad) * second[order] + np.sin(turn_rad) * third[order]
     return np.stack([first, np.cross(normals[order], first), normals[order]], axis=1)
@@ -99,8 +113,12 @@ def spread_directions(count: int) -> Floats:
     return np.column_stack([level * np.cos(azimuth_rad), level * np.sin(azimuth_rad), height])
 
 
-def _refined(axes: Floats, points_m: Floats, margin_m: float) -> tuple[float, Floats]:
+def _refined(
+    axes: Floats, points_m: Floats, margin_m: float, *, least: float = np.inf
+) -> tuple[float, Floats]:
     """Return the least volume and its axes near the given ones, by a shrinking pattern search.
+
+    A search that cannot be expected to come below `least` any more is broken off.
 
     The volume has creases, so no gradient is used: turns of one length about 26 directions are
     tried at once, the best is taken, and the length is halved when none is better. A turn by ε
@@ -112,7 +130,7 @@ def _refined(axes: Floats, points_m: Floats, margin_m: float) -> tuple[float, Fl
     along = axes @ arms_m.T
     volume = float(np.prod(np.ptp(along, axis=1) + 2.0 * margin_m))
     level = 0
-    while level <= _HALVINGS:
+    while level <= _HALVINGS and volume <= least * (1.0 + _HOPE * _REACHES_RAD[level]):
         slack_m = 2.0 * _REACHES_RAD[level] * reach_m
         outer = (along >= along.max(axis=1, keepdims=True) - slack_m).any(axis=0)
         outer |= (along <= along.min(axis=1, keepdims=True) + slack_m).any(axis=0)

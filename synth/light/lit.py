@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from synth.light.body import Body
 from synth.light.painter import Painter
-from synth.light.stage import Body, Stage
+from synth.light.stage import Stage
 from synth.scene import Scene
 from synth.spec.surface import SurfaceSpec
 from synth.spec.view import SunSpec

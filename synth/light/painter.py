@@ -4,19 +4,19 @@ A backend tells what each pixel shows and how far it is; the light there is work
 for all backends, so their images differ no more than their geometry does.
 """
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from synth.camera import Camera, Pose
+from synth.light.albedo import Albedo
+from synth.light.body import Body
 from synth.light.photometry import EXPOSURE, SKY, light, towards_sun
 from synth.light.rays import Surfaces, directions
+from synth.light.samples import Samples, stretch, width_m
 from synth.light.shade import ShadowMap
-from synth.light.stage import Body
-from synth.light.texture import pattern, wrapped
 from synth.mesh import Floats
 from synth.spec.surface import SurfaceSpec
 from synth.spec.view import SunSpec
@@ -27,20 +27,7 @@ Indices = NDArray[np.int64]
 _ON_PLANE = 3e-4  # of the depth: farther from the plane than this, a point is on something else
 _OFF_SURFACE_M = 1.5e-3  # a shadow ray starts this far out, above its own facet's bulge
 _EDGE = 12.0 / 255.0  # more contrast than this between neighbours is an edge
-_MOST_PARTS = 4  # of a slanted footprint
 _AT_ONCE = 1 << 17  # samples; eight times as many leave the cache and take longer
-
-
-@dataclass(frozen=True, eq=False)
-class _Samples:
-    """Points of surfaces as the camera sees them."""
-
-    points_m: Singles  # (n, 3), in the world
-    normals: Singles  # (n, 3)
-    body: Indices  # (n,), rocks first, then the ground's bodies
-    directions: Singles  # (n, 3), from the eye, z-depth 1
-    width_m: Singles  # (n,), a sample's breadth on the surface
-    stretch: Singles  # (n,), its length over its breadth, along the line of sight
 
 
 class Painter:
@@ -60,10 +47,7 @@ class Painter:
         self._sun, self._surface = sun, surface
         self._plane = None if plane_normal is None else plane_normal.astype(np.float32)
         self._towards_sun = towards_sun(sun).astype(np.float32)
-        self._albedo = np.array([body.albedo for body in self._bodies], dtype=np.float32)
-        turns = np.stack([body.model_to_world for body in self._bodies])
-        self._turns = turns.astype(np.float32)
-        self._origins_m = np.stack([body.position_m for body in self._bodies]).astype(np.float32)
+        self._albedo = Albedo(rocks, ground, surface)
         level = plane_normal is not None
         self._shadow_map = ShadowMap(
             rocks if level else [], ground[1:] if level else [], towards_sun(sun)
@@ -93,7 +77,9 @@ class Painter:
             )
         if supersample > 1:
             edges = np.flatnonzero(_jumps(bright, labels))
-            for part in np.array_split(edges, -(-len(edges) * supersample**2 // _AT_ONCE) or 1):
+            most = max(1, _AT_ONCE // supersample**2)
+            for start in range(0, len(edges), most):
+                part = edges[start : start + most]
                 value.ravel()[part] = self._refined(camera, pose, part, supersample)
         return value
 
@@ -118,13 +104,13 @@ class Painter:
         flat = self._on_plane(points_m, depth) & (labels.ravel() == 0) & there
         here = np.flatnonzero(flat)
         if self._plane is not None and len(here):
-            samples = _Samples(
+            samples = Samples(
                 points_m=points_m[here],
                 normals=np.broadcast_to(self._plane, (len(here), 3)),
                 body=np.full(len(here), self._rocks),
                 directions=rays[here],
-                width_m=_width_m(camera, depth[here]),
-                stretch=_stretch(rays[here] @ self._plane),
+                width_m=width_m(camera, depth[here]),
+                stretch=stretch(rays[here] @ self._plane),
             )
             bright[here], value[here] = self._shade(samples)
         rest = np.flatnonzero(there & ~flat)
@@ -165,18 +151,18 @@ class Painter:
             return bright, value
         normals = self.surfaces.normals_at(hits, here)
         facing = np.einsum("ij,ij->i", rays[here], normals)
-        samples = _Samples(
+        samples = Samples(
             points_m=rays[here] * hits.length[here, None] + eye_m,
             normals=normals,
             body=hits.body[here],
             directions=rays[here],
-            width_m=_width_m(camera, hits.length[here]) / np.float32(factor),
-            stretch=_stretch(facing),
+            width_m=width_m(camera, hits.length[here]) / np.float32(factor),
+            stretch=stretch(facing),
         )
         bright[here], value[here] = self._shade(samples)
         return bright, value
 
-    def _shade(self, samples: _Samples) -> tuple[Singles, Singles]:
+    def _shade(self, samples: Samples) -> tuple[Singles, Singles]:
         """Return the light on samples and their brightness, each (n,)."""
         normals = samples.normals
         incidence = np.asarray(normals @ self._towards_sun)
@@ -188,105 +174,7 @@ class Painter:
         facing = np.einsum("ij,ij->i", samples.directions, normals)
         emission = -facing / np.linalg.norm(samples.directions, axis=1)
         bright = light(normals[:, 2], incidence, emission, self._sun, self._surface)
-        return bright, np.float32(EXPOSURE) * bright * self._painted(samples)
-
-    def _painted(self, samples: _Samples) -> Singles:
-        """Return the albedo at samples, (n,): the body's, its texture, and dust on what faces up.
-
-        ρ = ρ_body (1 + contrast × texture); dust of the ground's albedo covers the share
-        dust × (n_z − 0.4)/0.6 of a rock, between 0 and 1.
-        """
-        surface = self._surface
-        albedo = self._albedo[samples.body]
-        rocky = np.flatnonzero(samples.body < self._rocks)
-        if surface.dust > 0.0:
-            cover = surface.dust * np.clip((samples.normals[rocky, 2] - 0.4) / 0.6, 0.0, 1.0)
-            albedo[rocky] += cover * (np.float32(surface.ground_albedo) - albedo[rocky])
-        if surface.contrast == 0.0:
-            return albedo
-        texture = self._texture(samples)
-        return np.asarray(albedo * np.maximum(1.0 + np.float32(surface.contrast) * texture, 0.1))
-
-    def _texture(self, samples: _Samples) -> Singles:
-        """Return the texture at samples, (n,), averaged over their footprints.
-
-        A slanted surface is longer under a pixel than it is broad. Its length is cut into up to
-        four parts, each the size of its geometric mean side: one part alone would lack what is
-        broad and keep what is too fine in length, which two eyes see in one row alike and in
-        bent rows never.
-        """
-        parts = np.clip(np.rint(samples.stretch), 1, _MOST_PARTS).astype(np.int8)
-        side_m = samples.width_m * np.sqrt(samples.stretch / parts)
-        lengths_m = _lengths_m(samples)
-        texture = np.empty(len(parts), dtype=np.float32)
-        earthy, rocky = (
-            np.flatnonzero(one) for one in (samples.body >= self._rocks, samples.body < self._rocks)
-        )
-        texture[earthy] = _mean_along(
-            lambda places_m, here: pattern(places_m[:, 0], places_m[:, 1], side_m[earthy[here]]),
-            samples.points_m[earthy, :2],
-            lengths_m[earthy, :2],
-            parts[earthy],
-        )
-        body = samples.body[rocky]
-        turns = self._turns[body]
-        # Rocks of one shape are painted with different parts of the tile.
-        apart_m = np.float32(0.37) * body[:, None].astype(np.float32)
-        arms_m, across_m, normals = (
-            np.einsum("nij,ni->nj", turns, one)
-            for one in (
-                samples.points_m[rocky] - self._origins_m[body],
-                lengths_m[rocky],
-                samples.normals[rocky],
-            )
-        )
-        texture[rocky] = _mean_along(
-            lambda places_m, here: wrapped(places_m, normals[here], side_m[rocky[here]]),
-            arms_m + apart_m,
-            across_m,
-            parts[rocky],
-        )
-        return texture
-
-
-def _lengths_m(samples: _Samples) -> Singles:
-    """Return the samples' lengths on the surface as vectors, (n, 3), away from the eye."""
-    sights, normals = samples.directions, samples.normals
-    away = sights - np.einsum("ij,ij->i", sights, normals)[:, None] * normals
-    size = np.sqrt(np.einsum("ij,ij->i", away, away))
-    away *= (samples.width_m * samples.stretch / np.maximum(size, np.float32(1e-6)))[:, None]
-    return np.asarray(away)
-
-
-def _mean_along(
-    look: Callable[[Singles, Indices], Singles],
-    points_m: Singles,
-    lengths_m: Singles,
-    parts: NDArray[np.int8],
-) -> Singles:
-    """Return the mean of what `look` sees in the middles of the parts of lengths, (n,).
-
-    points_m (n, k) are the lengths' middles, lengths_m (n, k) their vectors; `look` takes places
-    and the numbers of the samples they belong to.
-    """
-    mean = np.empty(len(parts), dtype=np.float32)
-    for count in np.unique(parts):
-        here = np.flatnonzero(parts == count)
-        middles_m, whole_m = points_m[here], lengths_m[here]
-        shares = (np.arange(count, dtype=np.float32) + 0.5) / np.float32(count) - 0.5
-        seen = [look(middles_m + share * whole_m, here) for share in shares]
-        mean[here] = sum(seen[1:], start=seen[0]) / np.float32(count)
-    return mean
-
-
-def _width_m(camera: Camera, depth: Singles) -> Singles:
-    """Return a pixel's breadth at a z-depth, (n,)."""
-    return np.asarray(depth / np.float32(np.sqrt(camera.fx * camera.fy)))
-
-
-def _stretch(facing: Singles) -> Singles:
-    """Return how much longer than broad a pixel is on surfaces, (n,), at most 50 times."""
-    return np.asarray(1.0 / np.maximum(-facing, np.float32(0.02)))
+        return bright, np.float32(EXPOSURE) * bright * self._albedo.at(samples)
 
 
 def _jumps(bright: Singles, labels: NDArray[np.uint16]) -> NDArray[np.bool_]:

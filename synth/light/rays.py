@@ -9,7 +9,7 @@ from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 
 from synth.camera import Camera, Pose, undistorted
-from synth.light.stage import Body
+from synth.light.body import Body
 
 Singles = NDArray[np.float32]
 Indices = NDArray[np.int64]

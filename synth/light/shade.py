@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.light.stage import Body
+from synth.light.body import Body
 from synth.mesh import Floats
 
 Singles = NDArray[np.float32]

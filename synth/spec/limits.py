@@ -10,6 +10,8 @@ Fraction = Annotated[float, Meta(ge=0, le=1)]
 Ratio = Annotated[float, Meta(gt=0, le=1)]
 PositiveRange = tuple[Positive, Positive]
 RatioRange = tuple[Ratio, Ratio]
+AxisRatio = Annotated[float, Meta(ge=0.01, le=1)]  # thinner bodies have no volume in float32
+AxisRatioRange = tuple[AxisRatio, AxisRatio]
 MOST = 500  # rocks in a scene, views of it
 Count = Annotated[int, Meta(ge=1, le=MOST)]
 

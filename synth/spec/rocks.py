@@ -4,7 +4,14 @@ from typing import Annotated, Literal
 
 from msgspec import Meta, Struct
 
-from synth.spec.limits import Count, Fraction, PositiveRange, RatioRange, check_range
+from synth.spec.limits import (
+    AxisRatioRange,
+    Count,
+    Fraction,
+    PositiveRange,
+    RatioRange,
+    check_range,
+)
 
 Family = Literal[
     "rounded-polyhedron",
@@ -66,8 +73,8 @@ class RocksSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     family: Family = "rounded-polyhedron"
     series: Series = "graded"
     diameter_m: PositiveRange = (0.28, 0.42)  # 2a, the longest side of the smallest box
-    b_over_a: RatioRange = (0.72, 0.92)
-    c_over_b: RatioRange = (0.65, 0.88)
+    b_over_a: AxisRatioRange = (0.72, 0.92)
+    c_over_b: AxisRatioRange = (0.65, 0.88)
     cuts: tuple[Cuts, Cuts] = (11, 15)
     rounding: tuple[Rounding, Rounding] = (0.02, 0.8)  # r over the inradius before rounding
     exponents: tuple[Exponent, Exponent] = (2.0, 6.0)  # of a superellipsoid; 2 is an ellipsoid

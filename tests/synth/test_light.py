@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from synth.camera import PRESETS, look_at
 from synth.ground import make_ground
 from synth.light import light_scene
 from synth.light.photometry import light, reflected, towards_sun
@@ -62,6 +63,16 @@ def test_a_rock_shades_another_rock():
     high = np.array([[0.2, 0.0, 0.77]], dtype=np.float32)  # above it
     assert painter.surfaces.blocked(low, towards).all()
     assert not painter.surfaces.blocked(high, towards).any()
+
+
+def test_bare_ground_without_an_edge_in_view_is_painted():
+    stage = stage_of(sun=SunSpec())
+    camera, pose = PRESETS["imp"].camera, look_at(np.array([0.0, 0.0, 3.0]), np.zeros(3))
+    picture = render_light(
+        open_renderer("embree", stage, camera), stage, camera, pose, supersample=2
+    )
+    # White ground in the sun has 1.35; the default ground gives back 0.55 of it.
+    assert picture.mean() == pytest.approx(1.35 * 0.55, rel=0.1)
 
 
 def test_the_laws_in_closed_form():

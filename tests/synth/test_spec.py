@@ -28,6 +28,7 @@ def test_values_are_read(tmp_path):
         ("sead = 3", "sead"),
         ("[rocks]\ncount = 0", "rocks.count"),
         ("[rocks]\ndiameter_m = [0.4, 0.2]", "diameter_m"),
+        ("[rocks]\nc_over_b = [0.001, 0.5]", "rocks.c_over_b"),
         ('[rocks]\nfamily = "mixed"', "series"),
         ('[noise]\nkind = "lidar"', "noise.kind"),
         ('[camera]\npreset = "foo"', "camera.preset"),

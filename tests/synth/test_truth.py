@@ -2,12 +2,14 @@
 
 import numpy as np
 import pytest
+from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
-from synth.box import smallest_box
+from synth.box import nearby_box, smallest_box
 from synth.mesh import area_m2, covariance_m2, volume_m3
 from synth.rocks.ellipsoid import ellipsoid, ellipsoid_area_m2
 from synth.rocks.polyhedron import cuboid
+from synth.rocks.relief import with_relief
 from synth.rocks.rounding import rounded_mesh
 from synth.truth import half_axes_of_covariance_m, maximum_projection_sphericity
 
@@ -28,6 +30,19 @@ def test_smallest_box_of_a_turned_box_is_the_box(seed):
 def test_margin_adds_to_each_half_side():
     box = smallest_box(cuboid(HALF_AXES_M).vertices_m, margin_m=0.05)
     np.testing.assert_allclose(box.half_sides_m, HALF_AXES_M + 0.05, rtol=1e-6)
+
+
+@pytest.mark.parametrize("seed", [3, 19, 27])
+def test_no_search_from_random_turns_finds_a_smaller_box_of_a_rough_rock(seed):
+    # The facets that are tried miss the box of seeds 19 and 27 by 2e-3 and 6e-4 of its volume. Of
+    # 50 such rocks the search ended at most 1.2e-5 above the best of 100 random starts.
+    rng = np.random.default_rng(seed)
+    smooth = ellipsoid(np.array([0.2, 0.16, 0.12]))
+    rock = with_relief(smooth, relief_rms=0.03, degrees=(3, 14), rng=rng)
+    points_m = rock.mesh.vertices_m[ConvexHull(rock.mesh.vertices_m).vertices]
+    turns = Rotation.random(40, random_state=0).as_matrix()
+    others = [np.prod(nearby_box(points_m @ turn.T).half_sides_m) for turn in turns]
+    assert np.prod(rock.truth.half_axes_box_m) < min(others) * (1.0 + 1e-4)
 
 
 def test_ellipsoid_truth_is_measured_on_its_mesh():

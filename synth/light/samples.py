@@ -1,0 +1,41 @@
+"""Samples: points of surfaces as the camera sees them, and how large they are there."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from synth.camera import Camera
+
+Singles = NDArray[np.float32]
+Indices = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """Points of surfaces as the camera sees them."""
+
+    points_m: Singles  # (n, 3), in the world
+    normals: Singles  # (n, 3)
+    body: Indices  # (n,), rocks first, then the ground's bodies
+    directions: Singles  # (n, 3), from the eye, z-depth 1
+    width_m: Singles  # (n,), a sample's breadth on the surface
+    stretch: Singles  # (n,), its length over its breadth, along the line of sight
+
+    def lengths_m(self) -> Singles:
+        """Return the samples' lengths on the surface as vectors, (n, 3), away from the eye."""
+        sights, normals = self.directions, self.normals
+        away = sights - np.einsum("ij,ij->i", sights, normals)[:, None] * normals
+        size = np.sqrt(np.einsum("ij,ij->i", away, away))
+        away *= (self.width_m * self.stretch / np.maximum(size, np.float32(1e-6)))[:, None]
+        return np.asarray(away)
+
+
+def width_m(camera: Camera, depth: Singles) -> Singles:
+    """Return a pixel's breadth at a z-depth, (n,)."""
+    return np.asarray(depth / np.float32(np.sqrt(camera.fx * camera.fy)))
+
+
+def stretch(facing: Singles) -> Singles:
+    """Return how much longer than broad a pixel is on surfaces, (n,), at most 50 times."""
+    return np.asarray(1.0 / np.maximum(-facing, np.float32(0.02)))

@@ -18,9 +18,11 @@ from rockshape.observation import Observation
 from rockshape.range_noise import RangeNoise, estimate_range_noise
 from rockshape.rock_view import RockView
 from rockshape.segmentation import Found, Variant, ground_under, segment
+from rockshape.threads import one_blas_thread
 from rockshape.visibility import visible_fraction
 
 
+@one_blas_thread()
 def measure(
     observation: Observation,
     *,

@@ -4,6 +4,7 @@ The matrices of a fit are small. Threads of BLAS wait on each other for longer t
 on a busy machine many times as long.
 """
 
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
@@ -17,7 +18,8 @@ _limits: list[Any] = []  # one for each that is within `one_blas_thread`, the fi
 
 
 @cache
-def _blas() -> ThreadpoolController:
+def _blas(*, with_scipy: bool) -> ThreadpoolController:  # noqa: ARG001 - the cache asks for it
+    """The libraries loaded: numpy's, OpenCV's, and scipy's once it is imported."""
     return ThreadpoolController().select(user_api="blas")
 
 
@@ -26,10 +28,11 @@ def one_blas_thread() -> Iterator[None]:
     """Let the BLAS libraries that are loaded use one thread, and as many as before afterwards.
 
     The number is the process's: where several threads are within at once, the last to leave sets
-    back what the first found. Libraries loaded after the first call are not known.
+    back what the first found. A library that is loaded within keeps its number.
     """
     with _lock:
-        _limits.append(_blas().limit(limits=1))
+        loaded = _blas(with_scipy="scipy.linalg" in sys.modules)
+        _limits.append(loaded.limit(limits=1))
     try:
         yield
     finally:

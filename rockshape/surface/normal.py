@@ -5,7 +5,6 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import LinAlgError, cho_solve_banded, cholesky_banded
 
 from rockshape.surface.basis import Basis, Knots, derivative_net, overlaps
 
@@ -168,14 +167,18 @@ class Factor:
 
     def solve(self, side: NDArray[np.float64]) -> NDArray[np.float64]:
         """The vertices (size,) or (size, k) for right-hand sides of that shape."""
+        from scipy.linalg import cho_solve_banded  # noqa: PLC0415 - see factorise
+
         return np.asarray(cho_solve_banded((self.lower, True), side, check_finite=False))
 
 
 def factorise(bands: NDArray[np.float64]) -> Factor | None:
     """The factor, or None where the data and the penalty leave a vertex undecided."""
+    from scipy.linalg import cholesky_banded  # noqa: PLC0415 - 0.05 s that outlines do without
+
     try:
         lower = cholesky_banded(bands, lower=True, check_finite=False)
-    except LinAlgError:
+    except np.linalg.LinAlgError:
         return None
     pivots = lower[0] ** 2
     return Factor(lower) if pivots.min() > LEAST_PIVOT * bands[0].max() else None

@@ -9,12 +9,13 @@ from numpy.typing import NDArray
 from rockshape.descriptors import Descriptors
 from rockshape.ellipse import Ellipse
 from rockshape.ellipsoid import Ellipsoid
-from rockshape.ground import Plane
 from rockshape.measures import Reading
-from rockshape.segmentation import Found
 
 if TYPE_CHECKING:
     import pandas as pd
+
+    from rockshape.ground import Plane
+    from rockshape.segmentation import Found
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,9 +54,9 @@ class Measurement:
 
     method: str
     labels: NDArray[np.int32]  # (rows, cols), 0 the ground
-    ground: Plane | None
+    ground: "Plane | None"
     rocks: tuple[Rock, ...]  # in the order of their numbers
-    found: tuple[Found, ...] = ()  # how each was found, likewise; empty with given labels
+    found: "tuple[Found, ...]" = ()  # how each was found, likewise; empty with given labels
     described: bool = False  # whether the rocks have descriptors
 
     def to_frame(self) -> "pd.DataFrame":

@@ -1,13 +1,16 @@
 """What the camera gave: a grey image and, where it was measured, the point seen at each pixel."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.camera import Camera
 from rockshape.errors import InputError
-from rockshape.resection import Resection, calibrate, resect
+
+if TYPE_CHECKING:
+    from rockshape.resection import Resection
 
 SURE_RESIDUAL_PX = 0.5  # a camera at the origin that explains the grid this well is the one
 WORST_RESIDUAL_PX = 3.0  # a grid that no camera explains better than this is not one camera's
@@ -27,7 +30,7 @@ class Observation:
     image: NDArray[np.float32]  # (rows, cols), 0..1
     points_m: NDArray[np.float64] | None = None  # (rows, cols, 3)
     camera: Camera | None = None
-    resection: Resection | None = None
+    resection: "Resection | None" = None
 
     def __post_init__(self) -> None:
         if self.image.ndim != 2 or self.image.size == 0:
@@ -42,6 +45,9 @@ class Observation:
         if self.points_m.shape != expected:
             raise InputError(f"points_m: expected {expected}, found {self.points_m.shape}")
         if self.camera is None:
+            # brings scipy.optimize, a fifth of a second
+            from rockshape.resection import calibrate, resect  # noqa: PLC0415
+
             resection = calibrate(self.points_m)
             if resection is None or resection.residual_px > SURE_RESIDUAL_PX:
                 resection = resect(self.points_m)

@@ -1,9 +1,9 @@
 """From an observation to the measures of each rock in it."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-import scipy.ndimage as ndi
 from numpy.typing import NDArray
 
 from rockshape.camera import Camera
@@ -11,14 +11,18 @@ from rockshape.descriptors import describe_smooth
 from rockshape.ellipse import Ellipse
 from rockshape.ellipsoid import Ellipsoid
 from rockshape.errors import InputError
-from rockshape.ground import Plane
 from rockshape.measurement import Measurement, Rock
 from rockshape.measures import METHODS
 from rockshape.observation import Observation
+from rockshape.patches import Patch, find_patches
 from rockshape.range_noise import RangeNoise, estimate_range_noise
 from rockshape.rock_view import RockView
-from rockshape.segmentation import Found, Variant, ground_under, segment
+from rockshape.threads import one_blas_thread
 from rockshape.visibility import visible_fraction
+
+if TYPE_CHECKING:
+    from rockshape.ground import Plane
+    from rockshape.segmentation import Found, Variant
 
 
 def measure(
@@ -41,34 +45,19 @@ def measure(
     shape = observation.image.shape
     if labels is not None and labels.shape != shape:
         raise InputError(f"labels: expected {shape} as the image has, found {labels.shape}")
-    points_m = observation.points_m
-    variant: Variant = "robust" if method == "robust" else "paper"
-    found: tuple[Found, ...] = ()
-    if labels is None:
-        segmentation = segment(observation, variant=variant)
-        labels, ground, frame = segmentation.labels, segmentation.ground, segmentation.frame
-        found = segmentation.found
+    if labels is None or observation.points_m is not None:
+        scene, found = _find(observation, method, labels)
     else:
-        ground = ground_under(observation, variant=variant)
-        frame = (slice(0, shape[0]), slice(0, shape[1]))
-    noise = None
-    if method == "robust" and ground is not None and points_m is not None:
-        noise = estimate_range_noise(points_m, ground, labels != 0)
-    scene = _Scene(
-        labels=labels,
-        points_m=points_m,
-        camera=observation.camera,
-        ground=ground,
-        noise=noise,
-        frame=frame,
-        method=method,
-        described=descriptors,
-    )
-    rocks = tuple(_measure_rock(scene, patch) for patch in _patches(labels))
+        scene, found = _Scene(labels=labels, frame=_whole(shape), camera=observation.camera), ()
+    with one_blas_thread():
+        rocks = tuple(
+            _measure_rock(scene, patch, method=method, described=descriptors)
+            for patch in find_patches(scene.labels)
+        )
     return Measurement(
         method=method,
-        labels=labels,
-        ground=ground,
+        labels=scene.labels,
+        ground=scene.ground,
         rocks=rocks,
         found=found,
         described=descriptors,
@@ -80,54 +69,52 @@ class _Scene:
     """What the rocks of one image share."""
 
     labels: NDArray[np.int32]  # (rows, cols)
-    points_m: NDArray[np.float64] | None  # (rows, cols, 3)
-    camera: Camera | None
-    ground: Plane | None
-    noise: RangeNoise | None
     frame: tuple[slice, slice]  # rows and columns in which rocks could be found
-    method: str
-    described: bool  # whether descriptors are wanted
+    camera: Camera | None
+    points_m: NDArray[np.float64] | None = None  # (rows, cols, 3)
+    ground: "Plane | None" = None
+    noise: RangeNoise | None = None
 
 
-@dataclass(frozen=True, eq=False)
-class _Patch:
-    """A rock's pixels: the largest part that hangs together."""
-
-    number: int
-    window: tuple[slice, slice]  # the box they lie in
-    mask: NDArray[np.bool_]  # within the box
+def _whole(shape: tuple[int, ...]) -> tuple[slice, slice]:
+    return slice(0, shape[0]), slice(0, shape[1])
 
 
-def _patches(labels: NDArray[np.int32]) -> list[_Patch]:
-    """The pixels of each number in the label image, in the order of the numbers."""
-    rocks = labels != 0
-    numbers = np.unique(labels[rocks])
-    dense = np.zeros(labels.shape, dtype=np.int32)
-    dense[rocks] = np.searchsorted(numbers, labels[rocks]) + 1
-    return [
-        _largest_part(int(number), window, labels[window] == number)
-        for number, window in zip(numbers, ndi.find_objects(dense), strict=True)
-    ]
+def _find(
+    observation: Observation, method: str, labels: NDArray[np.int32] | None
+) -> "tuple[_Scene, tuple[Found, ...]]":
+    """Where the rocks are and what they stand on; with labels, the latter alone."""
+    # takes half a second to import, and outlines without range need none of it
+    from rockshape.segmentation import ground_under, segment  # noqa: PLC0415
 
-
-def _largest_part(number: int, window: tuple[slice, slice], mask: NDArray[np.bool_]) -> _Patch:
-    parts, count = ndi.label(mask, structure=np.ones((3, 3)))
-    if count == 1:
-        return _Patch(number, window, mask)
-    largest = int(np.argmax(np.bincount(parts.ravel())[1:])) + 1
-    rows, cols = ndi.find_objects(parts)[largest - 1]
-    inner = tuple(
-        slice(whole.start + part.start, whole.start + part.stop)
-        for whole, part in zip(window, (rows, cols), strict=True)
+    variant: Variant = "robust" if method == "robust" else "paper"
+    points_m, noise = observation.points_m, None
+    found: tuple[Found, ...] = ()
+    with one_blas_thread():
+        if labels is None:
+            segmentation = segment(observation, variant=variant)
+            labels, ground, frame = segmentation.labels, segmentation.ground, segmentation.frame
+            found = segmentation.found
+        else:
+            ground, frame = ground_under(observation, variant=variant), _whole(labels.shape)
+        if method == "robust" and ground is not None and points_m is not None:
+            noise = estimate_range_noise(points_m, ground, labels != 0)
+    scene = _Scene(
+        labels=labels,
+        frame=frame,
+        camera=observation.camera,
+        points_m=points_m,
+        ground=ground,
+        noise=noise,
     )
-    return _Patch(number, (inner[0], inner[1]), parts[rows, cols] == largest)
+    return scene, found
 
 
-def _measure_rock(scene: _Scene, patch: _Patch) -> Rock:
+def _measure_rock(scene: _Scene, patch: Patch, *, method: str, described: bool) -> Rock:
     rows, cols = patch.window
     view = _view_rock(scene, patch)
-    ellipse, ellipsoid = _fits(view, scene.method)
-    readings = {measure.column: measure.read(view) for measure in METHODS[scene.method]}
+    ellipse, ellipsoid = _fits(view, method)
+    readings = {measure.column: measure.read(view) for measure in METHODS[method]}
     pixel_rows, pixel_cols = np.nonzero(patch.mask)
     return Rock(
         number=patch.number,
@@ -142,7 +129,7 @@ def _measure_rock(scene: _Scene, patch: _Patch) -> Rock:
         ellipse=ellipse,
         ellipsoid=ellipsoid,
         readings=readings,
-        descriptors=describe_smooth(view.smooth_outline_px) if scene.described else None,
+        descriptors=describe_smooth(view.smooth_outline_px) if described else None,
     )
 
 
@@ -153,7 +140,7 @@ def _fits(view: RockView, method: str) -> tuple[Ellipse | None, Ellipsoid | None
     return view.ellipse, None if view.ellipsoid is None else view.ellipsoid.ellipsoid
 
 
-def _view_rock(scene: _Scene, patch: _Patch) -> RockView:
+def _view_rock(scene: _Scene, patch: Patch) -> RockView:
     rows, cols = patch.window
     return RockView(
         mask=patch.mask,

@@ -1,12 +1,14 @@
 """How far the measured range scatters, told by the ground."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.ground import Plane
+if TYPE_CHECKING:
+    from rockshape.ground import Plane  # brings scipy.optimize, a fifth of a second
 
 APART_PX = 12  # pixels this far apart share no matching window, and nearly the same ground
 MOST_WINDOW_PX = 11
@@ -41,7 +43,7 @@ class RangeNoise:
 
 
 def estimate_range_noise(
-    points_m: NDArray[np.float64], ground: Plane, rocks: NDArray[np.bool_]
+    points_m: NDArray[np.float64], ground: "Plane", rocks: NDArray[np.bool_]
 ) -> RangeNoise | None:
     """The noise of a range image (rows, cols, 3), from its ground outside the rocks (rows, cols).
 

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,6 @@ from rockshape.ellipse import Ellipse, fit_ellipse
 from rockshape.ellipse_arc import fit_arc
 from rockshape.ellipse_moments import moment_ellipse
 from rockshape.ellipsoid import Ellipsoid, EllipsoidFit, Resting, fit_ellipsoid, fit_held_ellipsoid
-from rockshape.ground import Plane
 from rockshape.outline import trace_outline
 from rockshape.outline_edge import edge_of
 from rockshape.outline_even import form_outline, pixel_smooth
@@ -20,6 +20,9 @@ from rockshape.range_noise import RangeNoise
 from rockshape.silhouette import grazing_rays
 from rockshape.surface import Relief, Surface, fit_surface, measure_relief, view_patch
 from rockshape.visibility import touches_border
+
+if TYPE_CHECKING:
+    from rockshape.ground import Plane  # brings scipy.optimize, a fifth of a second
 
 LEAST_WIDTH_PX = 4.0
 NOISE_DRAWS = 4  # of errors like the range's, to tell what they alone would make of a surface
@@ -36,7 +39,7 @@ class RockView:
     corner: tuple[int, int] = (0, 0)  # row and column of the box's first pixel in the image
     grid_m: NDArray[np.float64] | None = None  # (rows, cols, 3) in the camera frame, or no range
     camera: Camera | None = None
-    ground: Plane | None = None
+    ground: "Plane | None" = None
     frame: tuple[slice, slice] | None = None  # rows and columns in which rocks can be seen
     noise: RangeNoise | None = None  # None: the range is taken to be exact
 

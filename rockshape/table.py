@@ -1,13 +1,16 @@
 """The table: one row a rock."""
 
 import dataclasses
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
 
-from rockshape.measurement import Measurement, Rock
 from rockshape.measures import METHODS
-from rockshape.segmentation import Found
+
+if TYPE_CHECKING:
+    from rockshape.measurement import Measurement, Rock
+    from rockshape.segmentation import Found
 
 PLACE = ("rock", "row", "col", "area_px", "width_px", "height_px", "truncated", "visible_fraction")
 FLAGS = ("branch", "flags", "outline_sd_px")
@@ -34,7 +37,7 @@ def columns(method: str, *, descriptors: bool = False, flags: bool = False) -> t
     return (*PLACE, *AXES, *measured, "reason", *described, *(FLAGS if flags else ()))
 
 
-def to_frame(measurement: Measurement, *, flags: bool = False) -> pd.DataFrame:
+def to_frame(measurement: "Measurement", *, flags: bool = False) -> pd.DataFrame:
     """A measurement as a table with the columns of `columns`, one row a rock.
 
     row and col are the centroid of the rock's pixels; axis_a_m >= axis_b_m >= axis_c_m are the
@@ -52,7 +55,7 @@ def to_frame(measurement: Measurement, *, flags: bool = False) -> pd.DataFrame:
     return frame.astype(_types(names))
 
 
-def _found(found: Found | None) -> tuple[str, str, float]:
+def _found(found: "Found | None") -> tuple[str, str, float]:
     """How a rock was found, as the columns of FLAGS."""
     if found is None:
         return "labels", "", np.nan
@@ -60,7 +63,7 @@ def _found(found: Found | None) -> tuple[str, str, float]:
     return found.branch, "; ".join(found.flags), sd_px
 
 
-def _row(rock: Rock) -> tuple[object, ...]:
+def _row(rock: "Rock") -> tuple[object, ...]:
     place = (rock.number, *(getattr(rock, name) for name in PLACE[1:]))
     half_axes = [np.nan] * 3 if rock.ellipsoid is None else rock.ellipsoid.half_axes_m
     described = () if rock.descriptors is None else dataclasses.astuple(rock.descriptors)

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from rockshape.ellipse import Ellipse, fit_ellipse
 from rockshape.measures.sphericity_3d import sphericity_3d
 from rockshape.outline import trace_outline
+from rockshape.outline_extent import feret_diameters
 from rockshape.surface import fit_surface, view_patch
 from synth.shapes.series import Shape, shape_series
 
@@ -160,7 +161,7 @@ def ellipse_error() -> plt.Figure:
 
 
 def sphericity_2d() -> plt.Figure:
-    """The upright box and the smallest rectangle, of a rock and of the same rock turned."""
+    """The upright box and the Feret diameters, of a rock and of the same rock turned."""
     figure, panels = _panels(2)
     rng = np.random.default_rng(SEED)
     shape = shape_series("sphericity", count=3, rng=rng)[1]
@@ -169,16 +170,34 @@ def sphericity_2d() -> plt.Figure:
         _rock(panel, outline)
         low, high = outline.min(axis=0), outline.max(axis=0)
         box = np.array([low, (high[0], low[1]), high, (low[0], high[1]), low])
-        rectangle = cv2.minAreaRect(outline.astype(np.float32))
-        corners = cv2.boxPoints(rectangle)
         panel.plot(*box.T, color=SECOND, linewidth=1.4, linestyle="--")
-        panel.plot(*np.vstack([corners, corners[:1]]).T, color=FIRST, linewidth=1.4)
+        for ends in _feret_ends(outline):
+            panel.annotate(
+                "",
+                *ends,
+                arrowprops={"arrowstyle": "|-|", "color": FIRST, "linewidth": 1.4, "shrinkA": 0}
+                | {"shrinkB": 0, "mutation_scale": 4},
+            )
         upright = (high - low).min() / (high - low).max()
-        fitted = min(rectangle[1]) / max(rectangle[1])
-        panel.set_title(f"upright box {upright:.2f}, smallest rectangle {fitted:.2f}", fontsize=9)
+        least, greatest = feret_diameters(outline)
+        panel.set_title(f"upright box {upright:.2f}, callipers {least / greatest:.2f}", fontsize=9)
         panel.margins(0.04)
         panel.autoscale_view()
     return figure
+
+
+def _feret_ends(outline: Floats) -> list[tuple[Floats, Floats]]:
+    """Ends of the least and the greatest of the diameters by whole degrees, through the middle."""
+    turns = np.radians(np.arange(180))
+    ways = np.column_stack([np.cos(turns), np.sin(turns)])
+    reach = outline @ ways.T
+    middle = (outline.min(axis=0) + outline.max(axis=0)) / 2
+    found = []
+    for place in (np.ptp(reach, axis=0).argmin(), np.ptp(reach, axis=0).argmax()):
+        way = ways[place]
+        start, end = reach[:, place].min(), reach[:, place].max()
+        found.append((middle + (start - middle @ way) * way, middle + (end - middle @ way) * way))
+    return found
 
 
 def angularity_2d() -> plt.Figure:
@@ -205,7 +224,8 @@ def angularity_2d() -> plt.Figure:
         right.plot(along, angles, color=colour, linewidth=1, label=f"{words}: spread {spread:.1f}°")
     right.set_xlabel("along the outline")
     right.set_ylabel("flattest angle, °")
-    right.legend(frameon=False, fontsize=8, loc="lower right")
+    right.set_ylim(100, 182)
+    right.legend(frameon=False, fontsize=8, loc="lower right", ncols=2)
     right.spines[["top", "right"]].set_visible(False)
     return figure
 

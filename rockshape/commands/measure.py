@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from rockshape.draw import overlay
 from rockshape.errors import InputError
 from rockshape.io import read_camera, read_image, read_labels, read_range, write_image
-from rockshape.io.coco import read_coco
 from rockshape.io.files import check_writable, write_bytes
 from rockshape.io.images import LABEL_IMAGES, PICTURES
 from rockshape.io.tables import TABLES, write_table
@@ -20,7 +19,6 @@ from rockshape.measurement import Measurement
 from rockshape.measures import METHODS
 from rockshape.observation import Observation
 from rockshape.pipeline import measure
-from rockshape.report import render_page
 from rockshape.table import to_frame
 
 HELP = "find the rocks in an image and tell the shape of each"
@@ -132,6 +130,8 @@ def run(args: argparse.Namespace) -> int:
 
 def _read_labels(path: Path, image: Path, shape: tuple[int, ...]) -> NDArray[np.int32]:
     if path.suffix.lower() == ".json":
+        from rockshape.io.coco import read_coco  # noqa: PLC0415 - scikit-image draws its polygons
+
         return read_coco(path, image_name=image.name, shape=shape)
     return read_labels(path, shape=shape)
 
@@ -153,6 +153,8 @@ def _write(
     if outputs.overlay is not None:
         write_image(outputs.overlay, overlay(observation.image, measurement))
     if outputs.report is not None:
+        from rockshape.report import render_page  # noqa: PLC0415 - brings Jinja
+
         page = render_page(name, observation.image, measurement)
         write_bytes(outputs.report, page.encode())
 

@@ -1,6 +1,7 @@
 """The ellipsoid of a one-sided view, held by range, silhouette and ground together."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -116,27 +117,43 @@ class _Held:
     eye: NDArray[np.float64]  # (3,), where the rays begin
     normal: NDArray[np.float64] | None  # (3,)
     offset: float
+    last: list[tuple[State, list[Linearised]]] = field(default_factory=list)
 
-    def _parts(self, state: State) -> list[tuple[Linearised, NDArray[np.float64] | float, float]]:
-        """Residuals, their standard deviations, and the share of each kind in the cost."""
-        parts: list[tuple[Linearised, NDArray[np.float64] | float, float]] = [
-            (points_to_surface(self.points, state), self.point_sd, SHARE_POINTS)
-        ]
-        if self.rays.shape[1]:
-            parts.append((rays_to_silhouette(self.rays, self.eye, state), ROUGH, SHARE_RAYS))
-        if self.normal is not None:
-            low = lowest_point(self.normal, state)
-            over = Linearised(low.residuals - self.offset, low.jacobian)
-            parts.append((over, ROUGH, SHARE_GROUND))
-        return parts
+    def _seen(self, state: State) -> list[Linearised]:
+        """Residuals of range and silhouette, in the order of `spread` and `share`.
+
+        The last state's are kept: a step is tried before it is taken.
+        """
+        if not self.last or self.last[0][0] is not state:
+            seen = [points_to_surface(self.points, state)]
+            if self.rays.shape[1]:
+                seen.append(rays_to_silhouette(self.rays, self.eye, state))
+            self.last[:] = [(state, seen)]
+        return self.last[0][1]
+
+    @cached_property
+    def spread(self) -> NDArray[np.float64]:
+        """The residual (n + m,) at which each weighs a quarter."""
+        return GIVE_UP * np.append(self.point_sd, np.full(self.rays.shape[1], ROUGH))
+
+    @cached_property
+    def share(self) -> NDArray[np.float64]:
+        """What each residual (n + m,) counts in the cost."""
+        counts = self.points.shape[1], self.rays.shape[1]
+        shares = SHARE_POINTS / counts[0], SHARE_RAYS / max(counts[1], 1)
+        return np.repeat(shares, counts)
 
     def cost(self, state: State) -> float:
         """Half the sum of the robust squares."""
-        total = 0.0
-        for part, sd, share in self._parts(state):
-            square = (part.residuals / (GIVE_UP * sd)) ** 2
-            total += share * GIVE_UP**2 * float(np.mean(square / (1 + square)))
-        return total / 2
+        square = np.concatenate([part.residuals for part in self._seen(state)])
+        square /= self.spread
+        square *= square
+        total = float(self.share @ (square / (1 + square)))
+        if self.normal is not None:
+            over = float(lowest_point(self.normal, state).residuals[0]) - self.offset
+            level = (over / (GIVE_UP * ROUGH)) ** 2
+            total += SHARE_GROUND * level / (1 + level)
+        return GIVE_UP**2 * total / 2
 
     def derivatives(
         self, state: State, *, whole: bool
@@ -146,12 +163,18 @@ class _Held:
         There is no whole Hessian: the ends the three kinds hold leave little for J^T J to miss.
         """
         del whole
-        gradient, system = np.zeros(9), np.zeros((9, 9))
-        for part, sd, share in self._parts(state):
-            trust = 1 / (1 + (part.residuals / (GIVE_UP * sd)) ** 2) ** 2
-            weight = share * trust / (sd * sd * len(part.residuals))
-            gradient += part.jacobian @ (weight * part.residuals)
-            system += (part.jacobian * weight) @ part.jacobian.T
+        seen = self._seen(state)
+        residuals = np.concatenate([part.residuals for part in seen])
+        jacobian = np.concatenate([part.jacobian for part in seen], axis=1)
+        weight = self.share * _trust(residuals, self.spread)
+        gradient = jacobian @ (weight * residuals)
+        system = (jacobian * weight) @ jacobian.T
+        if self.normal is not None:
+            low = lowest_point(self.normal, state)
+            over, slope = low.residuals - self.offset, low.jacobian[:, 0]
+            pull = float(SHARE_GROUND * _trust(over, GIVE_UP * ROUGH)[0])
+            gradient += pull * float(over[0]) * slope
+            system += pull * np.outer(slope, slope)
         return gradient, system
 
     def sketch(self) -> "_Held":
@@ -164,6 +187,14 @@ class _Held:
             normal=self.normal,
             offset=self.offset,
         )
+
+
+def _trust(
+    residuals: NDArray[np.float64], spread: NDArray[np.float64] | float
+) -> NDArray[np.float64]:
+    """The weight (n,) of each residual: L'(x)/(2x)/σ², where the spread is 3σ."""
+    level = residuals / spread
+    return np.asarray((GIVE_UP / (spread * (1 + level * level))) ** 2)
 
 
 def _search(problem: _Held, bounds: Bounds) -> Descent:

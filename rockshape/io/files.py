@@ -3,6 +3,7 @@
 import os
 import tempfile
 from pathlib import Path
+from typing import IO
 
 from rockshape.errors import InputError
 
@@ -39,17 +40,28 @@ def check_writable(path: Path, *, endings: tuple[str, ...]) -> None:
 
 
 def write_bytes(path: Path, data: bytes) -> None:
-    """Write a file whole or not at all: first beside it, then renamed."""
+    """Write a file whole or not at all: first beside it, then renamed.
+
+    Raises InputError where the system refuses: a full disk, a folder that takes no files.
+    """
     check_writable(path, endings=(path.suffix.lower(),))
-    with tempfile.NamedTemporaryFile(dir=path.parent, prefix=".", delete=False) as draft:
-        try:
-            draft.write(data)
-            draft.close()
-            Path(draft.name).chmod(0o666 & ~_umask())
-            Path(draft.name).replace(path)
-        except BaseException:
-            Path(draft.name).unlink(missing_ok=True)
-            raise
+    try:
+        with tempfile.NamedTemporaryFile(dir=path.parent, prefix=".", delete=False) as draft:
+            _finish(path, draft, data)
+    except OSError as error:
+        raise InputError(f"{path}: expected a place to write, found {error.strerror}") from None
+
+
+def _finish(path: Path, draft: IO[bytes], data: bytes) -> None:
+    """Fill a draft and give it the path's name, or remove it."""
+    try:
+        draft.write(data)
+        draft.close()
+        Path(draft.name).chmod(0o666 & ~_umask())
+        Path(draft.name).replace(path)
+    except BaseException:
+        Path(draft.name).unlink(missing_ok=True)
+        raise
 
 
 def _umask() -> int:

@@ -5,10 +5,11 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import LinAlgError, cho_solve_banded, cholesky_banded
 
 from rockshape.surface.basis import Basis, Knots, derivative_net, overlaps
 
+BUNCH = 16  # data of one cell that are multiplied at a time
+CHUNK = 4096  # data whose products stay in the cache
 LEAST_PIVOT = 1e-13  # of the largest: below it rounding decides what the data do not
 
 
@@ -44,10 +45,8 @@ class Rows:
 
     def at(self, vertices: NDArray[np.float64]) -> NDArray[np.float64]:
         """C B, (n,) or (n, k) for vertices (size,) or (size, k)."""
-        if vertices.ndim == 1:
-            here = vertices[self.places]
-            return np.asarray(np.einsum("ij,ij->i", self.products, here))
-        return np.column_stack([self.at(column) for column in vertices.T])
+        here = vertices.T.take(self.places, axis=-1)
+        return np.asarray(np.einsum("ij,...ij->i...", self.products, here))
 
     @cached_property
     def places(self) -> NDArray[np.intp]:
@@ -72,33 +71,52 @@ def normal_equations(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """C^T W C as lower bands (band + 1, size), and C^T W D (size,) or (size, k).
 
-    Data of one net cell touch the same vertices, so that each cell adds one dense block of the
-    orders' product squared: the work is n times that, and no matrix of data by vertices is made.
-    heights is (n,) or (n, k).
+    Data of one net cell touch the same vertices, so that a few of them at a time add one dense
+    block of the orders' product squared: the work is n times that, and no matrix of data by
+    vertices is made. heights is (n,) or (n, k).
     """
-    net = data.net
-    order = np.argsort(data.first, kind="stable")
-    first, products, values = data.first[order], data.products[order], heights[order]
-    heavy = products if weights is None else products * weights[order][:, None]
-    starts = (
-        np.flatnonzero(np.r_[True, first[1:] != first[:-1]]) if len(first) else np.empty(0, int)
-    )
-    ends = np.r_[starts[1:], len(first)].astype(int)
-    wide = len(data.offsets)
-    blocks = np.empty((len(starts), wide, wide))
-    sides = np.empty((len(starts), wide, *values.shape[1:]))
-    for k, (start, end) in enumerate(zip(starts, ends, strict=True)):
-        part = heavy[start:end].T
-        blocks[k] = part @ products[start:end]
-        sides[k] = part @ values[start:end]
-    place = first[starts][:, None] + data.offsets
-    row, column = np.broadcast_arrays(place[:, :, None], place[:, None, :])
-    lower = row >= column
-    flat = (row[lower] - column[lower]) * net.size + column[lower]
-    bands = np.bincount(flat, blocks[lower], (net.band + 1) * net.size).astype(np.float64)
-    side = np.zeros((net.size, *values.shape[1:]))
-    np.add.at(side, place, sides)
-    return bands.reshape(net.band + 1, net.size), side
+    net, wide = data.net, len(data.offsets)
+    columns = heights.reshape(len(heights), -1)
+    below, above = np.nonzero(np.subtract.outer(data.offsets, data.offsets) >= 0)
+    lower = below * (wide + columns.shape[1]) + above  # of a block's products, its lower half
+    offset = (data.offsets[below] - data.offsets[above]) * net.size + data.offsets[above]
+    bands = np.zeros((net.band + 1) * net.size)
+    side = np.zeros((columns.shape[1], net.size))
+    for start in range(0, len(columns), CHUNK):
+        here = slice(start, start + CHUNK)
+        bunch, slot, first = _bunches(data.first[here])
+        # each bunch's rows of C, and of C and D beside each other with their weights
+        plain = np.zeros((len(first), BUNCH, wide))
+        plain[bunch, slot] = data.products[here]
+        heavy = np.zeros((len(first), BUNCH, wide + columns.shape[1]))
+        heavy[bunch, slot, :wide] = data.products[here]
+        heavy[bunch, slot, wide:] = columns[here]
+        if weights is not None:
+            heavy[bunch, slot] *= weights[here, None]
+        blocks = plain.transpose(0, 2, 1) @ heavy
+        halves = blocks.reshape(len(first), -1).take(lower, axis=1)
+        bands += np.bincount((first[:, None] + offset).ravel(), halves.ravel(), len(bands))
+        place = (first[:, None] + data.offsets).ravel()
+        for k in range(len(side)):
+            side[k] += np.bincount(place, blocks[..., wide + k].ravel(), net.size)
+    return bands.reshape(net.band + 1, net.size), side.T.reshape(net.size, *heights.shape[1:])
+
+
+def _bunches(
+    cell: NDArray[np.intp],
+) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
+    """Data (n,) of equal cells in bunches of up to 16: each datum's bunch and slot, their cells."""
+    order = np.argsort(cell, kind="stable")
+    sorted_cells = cell[order]
+    starts = np.flatnonzero(np.diff(sorted_cells, prepend=-1))
+    counts = np.diff(starts, append=len(cell))
+    rank = np.arange(len(cell)) - np.repeat(starts, counts)
+    bunches = -(-counts // BUNCH)
+    before = np.cumsum(bunches) - bunches
+    bunch, slot = np.empty_like(order), np.empty_like(order)
+    bunch[order] = np.repeat(before, counts) + rank // BUNCH
+    slot[order] = rank % BUNCH
+    return bunch, slot, np.repeat(sorted_cells[starts], bunches)
 
 
 def to_bands(net: Net, dense: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -149,14 +167,18 @@ class Factor:
 
     def solve(self, side: NDArray[np.float64]) -> NDArray[np.float64]:
         """The vertices (size,) or (size, k) for right-hand sides of that shape."""
+        from scipy.linalg import cho_solve_banded  # noqa: PLC0415 - see factorise
+
         return np.asarray(cho_solve_banded((self.lower, True), side, check_finite=False))
 
 
 def factorise(bands: NDArray[np.float64]) -> Factor | None:
     """The factor, or None where the data and the penalty leave a vertex undecided."""
+    from scipy.linalg import cholesky_banded  # noqa: PLC0415 - 0.05 s that outlines do without
+
     try:
         lower = cholesky_banded(bands, lower=True, check_finite=False)
-    except LinAlgError:
+    except np.linalg.LinAlgError:
         return None
     pivots = lower[0] ** 2
     return Factor(lower) if pivots.min() > LEAST_PIVOT * bands[0].max() else None

@@ -1,6 +1,6 @@
 """What stands out of a rock's ellipsoid, as a surface over the sphere the ellipsoid is."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,7 +67,7 @@ def measure_relief(
     fit = _bends(x, y, heights)
     if fit is None:
         return None
-    misfit = np.abs(fit[1][:, 0])
+    misfit = np.abs(fit[1])
     sound = misfit <= max(OUTLIER * 1.4826 * float(np.median(misfit)), LEAST_OUTLIER)
     if not sound.all():
         fit = _bends(x[sound], y[sound], heights[sound])
@@ -96,7 +96,7 @@ def _flat(
 def _bends(
     x: NDArray[np.float64], y: NDArray[np.float64], heights: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
-    """(r_xx + r_yy)/2 and misfit, both (n, k), of surfaces through columns of heights (n, k)."""
+    """(r_xx + r_yy)/2 (n, k) of surfaces through columns of heights, and the first's misfit."""
     low, size = (x.min(), y.min()), (float(np.ptp(x)), float(np.ptp(y)))
     if min(size) <= 0:
         return None
@@ -108,6 +108,7 @@ def _bends(
     if factor is None:
         return None
     vertices = factor.solve(side)
-    bend_u = rows(NET, evaluate(NET.u, u, derivative=2), along_w).at(vertices) / size[0] ** 2
-    bend_w = rows(NET, along_u, evaluate(NET.w, w, derivative=2)).at(vertices) / size[1] ** 2
-    return (bend_u + bend_w) / 2, heights - data.at(vertices)
+    bend_u = rows(NET, evaluate(NET.u, u, derivative=2), along_w).products / size[0] ** 2
+    bend_w = rows(NET, along_u, evaluate(NET.w, w, derivative=2)).products / size[1] ** 2
+    bend = replace(data, products=(bend_u + bend_w) / 2)
+    return bend.at(vertices), heights[:, 0] - data.at(vertices[:, 0])

@@ -378,6 +378,19 @@ def test_a_file_the_system_refuses_is_one_line(
     fails_in_one_line(capsys, ["measure", "a.png", "--range", "b.npz"], "a.png: No space left")
 
 
+def test_a_full_disk_names_the_file_and_leaves_nothing(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(draft: Path, mode: int) -> None:
+        raise OSError(28, "No space left on device", str(draft))
+
+    monkeypatch.setattr(Path, "chmod", full)
+    table = tmp_path / "t.csv"
+    arguments = ["measure", str(GRAINS_IMAGE), "--labels", str(GRAINS_LABELS), "--out", str(table)]
+    fails_in_one_line(capsys, arguments, f"{table}: expected", "No space left")
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_a_defect_keeps_its_traceback(monkeypatch: pytest.MonkeyPatch) -> None:
     def broken(path: Path) -> None:
         raise ZeroDivisionError(path)

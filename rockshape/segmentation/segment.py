@@ -12,7 +12,7 @@ from rockshape.segmentation.image import find_by_image
 from rockshape.segmentation.numbers import renumber
 from rockshape.segmentation.paper import segment_heights
 from rockshape.segmentation.relief import Relief, relief_of, standing
-from rockshape.segmentation.split import split
+from rockshape.segmentation.split import FLATTEST, FLATTEST_ON_WAVES, split
 from rockshape.visibility import measured_frame
 
 Labels = NDArray[np.int32]
@@ -97,6 +97,7 @@ def find_by_range(relief: Relief, ground: Ground) -> Labels:
         relief,
         standing(relief),
         depth_sigma_m=ground.noise.depth_m(relief.depth_m),
+        flattest=FLATTEST if ground.swell is None else FLATTEST_ON_WAVES,
     )
     return renumber(labels, dropped=np.empty(0, dtype=np.intp))
 

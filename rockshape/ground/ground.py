@@ -8,10 +8,11 @@ from numpy.typing import NDArray
 from rockshape.ground.noise import Noise, estimate_noise
 from rockshape.ground.plane import Plane
 from rockshape.ground.robust import fit_inverse_depth
-from rockshape.ground.smooth import Swell, fit_swell
+from rockshape.ground.smooth import Swell, fit_swell, undulates
 
 SAMPLES = 65_536  # points the ground is fitted to: one for each 4 x 4 pixels of a large frame
-EVERY = 3  # of them for the plane, which a few thousand determine
+FINE_SAMPLES = 262_144  # and where it undulates
+EVERY = 3  # of the samples for the plane, which a few thousand determine
 FEWEST = 50
 
 
@@ -41,9 +42,7 @@ def fit_ground(points_m: NDArray[np.float64], *, pixel_rad: float) -> Ground | N
     the plane (see `smooth`). pixel_rad is a pixel's angle. None where too few points lie in front
     of the camera or no plane is determined.
     """
-    step = max(1, int(np.sqrt(points_m.shape[0] * points_m.shape[1] / SAMPLES)))
-    points = points_m[step // 2 :: step, step // 2 :: step].reshape(-1, 3)
-    points = points[np.isfinite(points).all(axis=1) & (points[:, 2] > 0)]
+    points = _sampled(points_m, SAMPLES)
     if len(points) < FEWEST:
         return None
     rays = points / points[:, 2:]
@@ -58,7 +57,10 @@ def fit_ground(points_m: NDArray[np.float64], *, pixel_rad: float) -> Ground | N
     height = points @ normal - offset_m
     slant = np.abs(rays @ normal)
     noise = estimate_noise(height, points[:, 2], slant, pixel_rad=pixel_rad)
-    swell = fit_swell(points, normal=normal, height_m=height, noise=noise)
+    swell = None
+    if undulates(points, normal=normal, height_m=height, noise=noise):
+        fine = _sampled(points_m, FINE_SAMPLES)
+        swell = fit_swell(fine, normal=normal, height_m=fine @ normal - offset_m, noise=noise)
     if swell is not None:
         height = height - swell.height_m(points)
         noise = estimate_noise(height, points[:, 2], slant, pixel_rad=pixel_rad)
@@ -67,3 +69,10 @@ def fit_ground(points_m: NDArray[np.float64], *, pixel_rad: float) -> Ground | N
     sigma_m = float(height[near].std()) if near.any() else float("nan")
     plane = Plane(normal=normal, offset_m=offset_m, sigma_m=sigma_m, accepted=found.accepted)
     return Ground(plane=plane, noise=noise, swell=swell)
+
+
+def _sampled(points_m: NDArray[np.float64], count: int) -> NDArray[np.float64]:
+    """About so many points (n, 3) in front of the camera, evenly over the frame."""
+    step = max(1, int(np.sqrt(points_m.shape[0] * points_m.shape[1] / count)))
+    points = points_m[step // 2 :: step, step // 2 :: step].reshape(-1, 3)
+    return points[np.isfinite(points).all(axis=1) & (points[:, 2] > 0)]

@@ -1,29 +1,39 @@
-"""A smooth surface over the ground plane, for ground that undulates."""
+"""A smooth surface over the ground plane, for ground that undulates.
+
+Sand lies at less than its angle of repose; rocks have steep flanks. So what rises no steeper than
+sand can is ground, be it a crest as high as a low rock, and a smooth surface is laid through it.
+"""
 
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 import scipy.ndimage as ndi
-import scipy.sparse as sp
 from numpy.typing import NDArray
-from scipy.sparse.linalg import spsolve
 
-from rockshape.ground.noise import Noise
+from rockshape.ground.bend import bend
+from rockshape.ground.envelope import gentle_below
+from rockshape.ground.noise import PIXEL_SHARE, Noise
 
 Floats = NDArray[np.float64]
+Singles = NDArray[np.float32]
+Mask = NDArray[np.bool_]
 
-CELL = 0.02  # side of a cell over its distance from the camera's foot
+COARSE_CELL = 0.02  # side of a cell over its distance from the camera's foot: to tell undulation
+FINE_CELL = 0.01  # and to follow it
 MOST_CELLS = 20_000
-STIFF = 0.2  # weight of the surface's bending against a cell's misfit
-ROUNDS = 5
 UNEVEN = 1.0  # scatters of a cell's points that cells may differ by on a plane
-WIDE = 5.0  # scatters above the surface at which a cell starts to lose its weight, at first
-NARROW = 2.0  # and in the end
-LEAST = 0.08  # of the undulation's own rise stays within the weight, or crests are taken for rocks
-FEWEST_IN_CELL = 4
+STEEPEST = 0.5  # slope of ground, 27 degrees; dry sand lies at up to 32
+SCATTERS = 1.0  # of a cell's own points, that it may stand above the gentlest surface
+NEAR_CELLS = 1.0  # standard deviation of the average that a cell beside a rock is held to,
+NEAR_RISE = 0.5  # and the share of the steepest rise that it may stand above it
+STIFF = 0.2  # weight of the surface's bending against a cell's misfit
+TAUT = 0.002  # and of its rise
+FEWEST_IN_CELL = 3
 FEWEST_CELLS = 40
 TAIL, NORMAL_TAIL = 0.03, 1.881  # a low quantile, and where a normal distribution has it
 NORMAL_BELOW = 0.1587  # share of a normal distribution more than its deviation below its middle
+STRIP = 1024  # points in a row for OpenCV, which takes up to 32,767 rows
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,120 +46,133 @@ class Swell:
 
     axes: Floats  # (2, 3), unit vectors in the plane, the second straight ahead
     origin: Floats  # (2,), of the grid: azimuth in radians and log distance in metres
-    nodes_m: Floats  # (azimuths, distances)
-    misfit_m: float  # scatter of the cells about it, from their lowest
+    cell: float  # side of a cell in both
+    nodes_m: Singles  # (azimuths, distances)
+    misfit_m: float  # scatter about it of the cells that are ground
 
-    def height_m(self, points_m: Floats) -> Floats:
+    def height_m(self, points_m: Floats) -> Singles:
         """Height (...) of the surface above the plane under points (..., 3), 0 under none."""
-        place = (_polar(points_m, self.axes) - self.origin) / CELL
+        place = (_polar(points_m, self.axes) - self.origin.astype(np.float32)) / self.cell
         known = np.isfinite(place).all(axis=-1)
-        height = np.zeros(known.shape)
-        height[known] = ndi.map_coordinates(
-            self.nodes_m, place[known].T, order=1, mode="nearest", prefilter=False
+        flat = np.where(known[..., None], place, 0).reshape(-1, 2).astype(np.float32)
+        strips = np.pad(flat, ((0, -len(flat) % STRIP), (0, 0))).reshape(-1, STRIP, 2)
+        height = cv2.remap(
+            self.nodes_m,
+            strips[..., 1],
+            strips[..., 0],
+            cv2.INTER_LINEAR,
+            borderMode=cv2.BORDER_REPLICATE,
         )
-        return height
+        height = height.ravel()[: len(flat)].reshape(known.shape)
+        return np.where(known, height, np.float32(0))
 
 
-def _polar(points_m: Floats, axes: Floats) -> Floats:
-    """Azimuth from straight ahead and log distance from the camera's foot, (..., 2)."""
-    across, ahead = points_m @ axes[0], points_m @ axes[1]
-    distance = np.maximum(np.hypot(across, ahead), 1e-3)
-    return np.stack([np.arctan2(across, ahead), np.log(distance)], axis=-1)
+def undulates(points_m: Floats, *, normal: Floats, height_m: Floats, noise: Noise) -> bool:
+    """Whether the ground under points (n, 3) of heights (n,) over its plane is no plane.
+
+    Points are gathered in the cells of a grid over the plane. It is one where the lower cells
+    differ, from their 10 % to their 40 % quantile, which rocks on less than half of the ground
+    leave be, no more than the points within one cell scatter.
+    """
+    cells = _gather(points_m, normal=normal, height_m=height_m, noise=noise, cell=COARSE_CELL)
+    if cells is None:
+        return False
+    value = cells.middle_m[cells.seen] / cells.scatter_m[cells.seen]
+    return float(np.subtract(*np.quantile(value, (0.4, 0.1)))) > UNEVEN
 
 
 def fit_swell(points_m: Floats, *, normal: Floats, height_m: Floats, noise: Noise) -> Swell | None:
-    """A smooth surface through the points (n, 3) of the ground, or None where a plane will do.
+    """A smooth surface through the points (n, 3) of ground that undulates.
 
-    Points are gathered in the cells of a grid over the plane; a cell's height is their median.
-    The plane is enough where the lower cells differ, from their 10 % to their 40 % quantile, no
-    more than the points within one cell scatter. Else the surface s minimises sum w (h - s)^2 +
-    0.2 sum (bending of s)^2 over the cells. The weight w of cells that stand above the surface
-    falls from 1 to 0, for rocks only ever add; its width narrows in five rounds from 5 to 2 times
-    the cells' own rise from quantile to quantile.
+    A cell of the grid has the median height h of its points. Of the cells those are ground that lie
+    on the highest surface below all of them which is nowhere steeper than 27 degrees (see
+    `envelope`), to within their own points' scatter. Cells beside one that is not may hold points
+    of both: they are ground where they stand less than half of the steepest rise over the average
+    of the ground near them. The surface s minimises sum (h - s)^2 over the ground, + 0.2 sum
+    (bending)^2 + 0.002 sum (rise)^2 over all cells (see `bend`), so that it passes calmly below
+    rocks. None where too few cells are seen.
     """
+    cells = _gather(points_m, normal=normal, height_m=height_m, noise=noise, cell=FINE_CELL)
+    if cells is None:
+        return None
+    ground = _ground_cells(cells)
+    nodes_m = bend(cells.middle_m, ground.astype(np.float32), stiff=STIFF, taut=TAUT)
+    low, high = np.quantile((cells.middle_m - nodes_m)[ground], (TAIL, 1 - TAIL))
+    misfit_m = max(-float(low), float(high), 0.0) / NORMAL_TAIL
+    return Swell(cells.axes, cells.origin, cells.side, nodes_m, misfit_m)
+
+
+def _polar(points_m: Floats, axes: Floats) -> Singles:
+    """Azimuth from straight ahead and log distance from the camera's foot, (..., 2)."""
+    flat = (points_m @ axes.T).astype(np.float32)
+    across, ahead = flat[..., 0], flat[..., 1]
+    distance = np.maximum(np.hypot(across, ahead), np.float32(1e-3))
+    return np.stack([np.arctan2(across, ahead), np.log(distance)], axis=-1)
+
+
+@dataclass(frozen=True, eq=False)
+class _Cells:
+    """Points gathered over a grid; (azimuths, distances) unless said."""
+
+    axes: Floats  # (2, 3)
+    origin: Floats  # (2,)
+    side: float
+    seen: Mask  # holds points enough
+    middle_m: Singles  # median height, 0 where not seen
+    scatter_m: Singles  # of the lower half, at least a quarter of a pixel's size
+
+
+def _gather(
+    points_m: Floats, *, normal: Floats, height_m: Floats, noise: Noise, cell: float
+) -> _Cells | None:
     ahead = np.array([0.0, 0.0, 1.0]) - normal[2] * normal
     length = float(np.linalg.norm(ahead))
     if length < 1e-6:  # straight down: any direction is ahead
         return None
     axes = np.stack([np.cross(normal, ahead / length), ahead / length])
     polar = _polar(points_m, axes)
-    low, high = np.quantile(polar, (0.005, 0.98), axis=0)
-    shape = tuple(int(side) for side in np.ceil((high - low) / CELL) + 1)
-    if np.prod(shape) > MOST_CELLS:
-        return None
-    place = np.rint((polar - low) / CELL).astype(int)
+    low, high = np.quantile(polar, (0.002, 0.99), axis=0).astype(np.float64)
+    side = max(cell, float(np.sqrt(np.prod(high - low) / MOST_CELLS)))
+    shape = tuple(int(count) for count in np.ceil((high - low) / side) + 1)
+    place = np.rint((polar - low) / side).astype(np.intp)
     inside = ((place >= 0) & (place < shape)).all(axis=1)
-    number = np.ravel_multi_index(tuple(place[inside].T), shape)
-    cells = _gather(number, height_m[inside])
-    if len(cells.number) < FEWEST_CELLS:
+    number = place[inside, 0] * shape[1] + place[inside, 1]
+    height = height_m[inside]
+    if len(height) < FEWEST_CELLS * FEWEST_IN_CELL:
         return None
-    far = np.bincount(number, points_m[inside, 2]) / np.maximum(np.bincount(number), 1)
-    finest = noise.pixel_rad * far[cells.number]
-    scatter = np.maximum(cells.scatter_m, finest)
-    if _rise(cells.middle_m / scatter) <= UNEVEN:
+    # one sort orders cells and, within each, heights: a cell's number and its heights' share of 1
+    lowest, span = height.min(), max(1.001 * float(np.ptp(height)), 1e-9)
+    ordered = np.sort(number + (height - lowest) / span)
+    count = np.bincount(number, minlength=shape[0] * shape[1])
+    first = np.cumsum(count) - count
+    own = np.flatnonzero(count >= FEWEST_IN_CELL)
+    if len(own) < FEWEST_CELLS:
         return None
-    nodes_m = _bend(cells, shape)
-    misfit = cells.middle_m - nodes_m.ravel()[cells.number]
-    misfit_m = max(0.0, -float(np.quantile(misfit, TAIL))) / NORMAL_TAIL
-    return Swell(axes=axes, origin=low, nodes_m=nodes_m, misfit_m=misfit_m)
+    middle, lower = (
+        (ordered[first[own] + np.floor(share * count[own]).astype(np.intp)] - own) * span + lowest
+        for share in (0.5, NORMAL_BELOW)
+    )
+    far = np.bincount(number, points_m[inside, 2], minlength=len(count))[own] / count[own]
+    least = PIXEL_SHARE * noise.pixel_rad * far
+    seen = np.zeros(len(count), dtype=bool)
+    middle_m, scatter_m = np.zeros((2, len(count)), dtype=np.float32)
+    seen[own], middle_m[own], scatter_m[own] = True, middle, np.maximum(middle - lower, least)
+    return _Cells(
+        axes, low, side, seen.reshape(shape), middle_m.reshape(shape), scatter_m.reshape(shape)
+    )
 
 
-def _rise(value: Floats) -> float:
-    """From the 10 % to the 40 % quantile, which rocks on less than half of the ground leave be."""
-    return float(np.subtract(*np.quantile(value, (0.4, 0.1))))
-
-
-@dataclass(frozen=True, eq=False)
-class _Cells:
-    """The cells that hold points enough."""
-
-    number: NDArray[np.intp]  # (m,), in the grid
-    middle_m: Floats  # median height
-    scatter_m: Floats  # of the lower half
-
-
-def _gather(number: NDArray[np.intp], height_m: Floats) -> _Cells:
-    order = np.lexsort((height_m, number))
-    sorted_m = height_m[order]
-    cells, first, count = np.unique(number[order], return_index=True, return_counts=True)
-    enough = count >= FEWEST_IN_CELL
-    cells, first, count = cells[enough], first[enough], count[enough]
-    middle = sorted_m[first + count // 2]
-    lower = sorted_m[first + np.floor(NORMAL_BELOW * count).astype(int)]
-    return _Cells(cells, middle, middle - lower)
-
-
-def _bend(cells: _Cells, shape: tuple[int, ...]) -> Floats:
-    """Nodes of the surface through the cells, by reweighted least squares."""
-    stiff = STIFF * _bending(shape)
-    height = np.zeros(shape[0] * shape[1])
-    seen = np.zeros(len(height))
-    height[cells.number], seen[cells.number] = cells.middle_m, 1.0
-    surface = np.zeros(len(height))
-    scale = least = _rise(cells.middle_m)
-    least *= LEAST
-    for width in np.geomspace(WIDE, NARROW, ROUNDS):
-        reach = max(width * scale, 1e-9)
-        rise = np.maximum(height - surface, 0) / (2 * reach)
-        weight = seen * np.maximum(1 - rise**2, 0) ** 2
-        # cells without weight are held by the bending alone, which a plane's freedom leaves open
-        surface = spsolve((sp.diags(weight + 1e-6) + stiff).tocsc(), weight * height)
-        misfit = (height - surface)[cells.number]
-        scale = max(_rise(misfit), least)
-    return np.asarray(surface.reshape(shape))
-
-
-def _bending(shape: tuple[int, ...]) -> sp.csc_matrix:
-    """Sum of squared second differences along both axes and across, as a quadratic form."""
-
-    def differences(count: int, order: int) -> sp.csr_matrix:
-        steps = sp.identity(count, format="csr")
-        for _ in range(order):
-            steps = steps[1:] - steps[:-1]
-        return steps
-
-    rows, cols = shape
-    down = sp.kron(differences(rows, 2), sp.identity(cols))
-    across = sp.kron(sp.identity(rows), differences(cols, 2))
-    twist = sp.kron(differences(rows, 1), differences(cols, 1))
-    return (down.T @ down + across.T @ across + 2 * (twist.T @ twist)).tocsc()
+def _ground_cells(cells: _Cells) -> Mask:
+    """Which cells are ground, (azimuths, distances)."""
+    distance_m = np.exp(cells.origin[1] + cells.side * np.arange(cells.seen.shape[1]))
+    rise_m = STEEPEST * cells.side * distance_m
+    gentle_m = gentle_below(np.where(cells.seen, cells.middle_m, np.inf), rise_m)
+    steep = cells.seen & (cells.middle_m - gentle_m > SCATTERS * cells.scatter_m)
+    beside = cv2.dilate(steep.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
+    sure = (cells.seen & ~beside).astype(np.float32)
+    total, weight = (
+        ndi.gaussian_filter(part, NEAR_CELLS) for part in (sure * cells.middle_m, sure)
+    )
+    average_m = total / np.maximum(weight, np.float32(1e-6))
+    calm = cells.middle_m - average_m < NEAR_RISE * rise_m
+    return np.asarray(cells.seen & ~steep & (~beside | calm))

@@ -2,8 +2,8 @@
 
 import numpy as np
 from numpy.typing import NDArray
-from skimage.draw import polygon
 
+from rockshape.segmentation.fill import Window, inside_of
 from rockshape.segmentation.lightness import read_lightness
 from rockshape.segmentation.relief import Relief
 from rockshape.segmentation.stars import FEWEST_PIXELS, propose
@@ -32,7 +32,7 @@ def find_by_image(image: NDArray[np.float32], relief: Relief | None, by_range: L
     already or it swallows another. Where range is good enough to show a rock of that width and is
     flat, there is none.
     """
-    stars = propose(read_lightness(image))
+    stars = propose(read_lightness(image), taken=by_range > 0)
     labels = by_range.copy()
     if stars is None:
         return labels
@@ -41,20 +41,22 @@ def find_by_image(image: NDArray[np.float32], relief: Relief | None, by_range: L
     for number in np.argsort(-value, kind="stable"):
         if value[number] < GOOD_ENOUGH:
             break
-        rows, cols = polygon(stars.y[number], stars.x[number], labels.shape)
-        if len(rows) < FEWEST_PIXELS:
+        window, mask = inside_of(stars.x[number], stars.y[number], labels.shape)
+        pixels = int(mask.sum())
+        if pixels < FEWEST_PIXELS:
             continue
-        under = labels[rows, cols]
-        taken = under > 0
-        if taken.mean() > MOST_SHARED:
+        part = labels[window]
+        shared = np.bincount(part[mask], minlength=len(area))
+        free = int(shared[0])
+        if pixels - free > MOST_SHARED * pixels:
             continue
-        others, shared = np.unique(under[taken], return_counts=True)
-        if any(part > SWALLOWED * area[other] for other, part in zip(others, shared, strict=True)):
+        others = np.flatnonzero(shared[1:]) + 1
+        if any(shared[other] > SWALLOWED * area[other] for other in others):
             continue
-        if relief is not None and _is_flat(relief, rows, cols):
+        if relief is not None and _is_flat(relief, window, mask):
             continue
-        labels[rows[~taken], cols[~taken]] = len(area)
-        area.append(int((~taken).sum()))
+        part[mask & (part == 0)] = len(area)
+        area.append(free)
     return labels
 
 
@@ -64,13 +66,13 @@ def likelihood(features: Floats) -> Floats:
     return np.asarray(np.column_stack([features, squares]) @ WEIGHTS + OFFSET)
 
 
-def _is_flat(relief: Relief, rows: NDArray[np.intp], cols: NDArray[np.intp]) -> bool:
+def _is_flat(relief: Relief, window: Window, mask: NDArray[np.bool_]) -> bool:
     """Whether range that would show a rock there shows none."""
-    known = relief.known[rows, cols]
-    if known.mean() < 0.5:
+    known = mask & relief.known[window]
+    if known.sum() < 0.5 * mask.sum():
         return False
-    depth = float(np.median(relief.depth_m[rows, cols][known]))
-    sigma = float(np.median(relief.sigma_m[rows, cols][known]))
-    height_m = LEAST_HEIGHT * np.ptp(cols) * relief.pixel_rad * depth
-    signal = float(np.quantile(relief.signal[rows, cols][known], 0.8))
+    depth = float(np.median(relief.depth_m[window][known]))
+    sigma = float(np.median(relief.sigma_m[window][known]))
+    height_m = LEAST_HEIGHT * mask.shape[1] * relief.pixel_rad * depth
+    signal = float(np.quantile(relief.signal[window][known], 0.8))
     return bool(height_m > SURE_SIGMA * sigma and signal < FLAT_SIGMA)

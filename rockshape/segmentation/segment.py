@@ -9,10 +9,10 @@ from rockshape.segmentation.edges import snapped, texture_of
 from rockshape.segmentation.flags import flag
 from rockshape.segmentation.found import Branch, Found, Segmentation, Variant
 from rockshape.segmentation.image import find_by_image
-from rockshape.segmentation.numbers import renumber
+from rockshape.segmentation.numbers import in_reading_order, renumber
 from rockshape.segmentation.paper import segment_heights
 from rockshape.segmentation.relief import Relief, relief_of, standing
-from rockshape.segmentation.split import split
+from rockshape.segmentation.split import FLATTEST, FLATTEST_ON_WAVES, split
 from rockshape.visibility import measured_frame
 
 Labels = NDArray[np.int32]
@@ -74,9 +74,8 @@ def _by_range_and_image(observation: Observation) -> Segmentation:
     texture = texture_of(observation.image)
     outlines, moved = snapped(observation.image, labels, relief, texture=texture)
     numbered = renumber(moved, dropped=np.empty(0, dtype=np.intp))
-    old = _old_numbers(moved, numbered)
     found = []
-    for number, before in enumerate(old, start=1):
+    for number, before in enumerate(in_reading_order(moved).tolist(), start=1):
         branch: Branch = "range" if before <= from_range else "image"
         found.append(Found(number, branch, (), outlines.get(before)))
     flags = flag(observation.image, numbered, relief, frame=frame)
@@ -97,6 +96,7 @@ def find_by_range(relief: Relief, ground: Ground) -> Labels:
         relief,
         standing(relief),
         depth_sigma_m=ground.noise.depth_m(relief.depth_m),
+        flattest=FLATTEST if ground.swell is None else FLATTEST_ON_WAVES,
     )
     return renumber(labels, dropped=np.empty(0, dtype=np.intp))
 
@@ -106,11 +106,3 @@ def pixel_rad(observation: Observation) -> float:
     if observation.camera is None:
         return 1.0 / max(int(side) for side in observation.image.shape)
     return 1.0 / observation.camera.fx
-
-
-def _old_numbers(before: Labels, after: Labels) -> list[int]:
-    """For each number from 1 of the labels after, its number before."""
-    numbers, first = np.unique(after, return_index=True)
-    return [
-        int(before.ravel()[place]) for number, place in zip(numbers, first, strict=True) if number
-    ]

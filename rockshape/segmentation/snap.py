@@ -12,8 +12,8 @@ import cv2
 import numpy as np
 import scipy.ndimage as ndi
 from numpy.typing import NDArray
-from skimage.draw import polygon
 
+from rockshape.segmentation.fill import inside_of
 from rockshape.segmentation.path import closed_paths
 
 Singles = NDArray[np.float32]
@@ -197,5 +197,6 @@ def paint(
     for number in order:
         if number in outlines:
             x, y = outlines[number].points_px.T
-            painted[polygon(y, x, labels.shape)] = number
+            window, mask = inside_of(x, y, labels.shape)
+            painted[window][mask] = number
     return painted

@@ -25,7 +25,8 @@ VALLEY_SHARE = 0.25  # a valley as deep as this share of the lower top's height 
 JUMP_SIGMA = 5.0  # neighbours this many standard deviations of depth apart are on two surfaces,
 JUMP_PIXELS = 8.0  # if they are also this many pixels' sizes apart: a slope of 83 degrees
 JUMP_SHARE = 0.5  # of a common border that jumps: two rocks
-FLATTEST = 0.08  # a rock's height over its width
+FLATTEST = 0.08  # a rock's height over its width,
+FLATTEST_ON_WAVES = 0.16  # and where the ground undulates, which leaves crests behind
 SMOOTH_PX = 5
 STEPS = ((0, 1), (1, 0), (1, 1), (1, -1))
 
@@ -49,7 +50,9 @@ class _Borders:
     jumps: Floats  # (b,), share of the border's links that jump
 
 
-def split(relief: Relief, mask: Mask, *, depth_sigma_m: NDArray[np.floating]) -> NDArray[np.int32]:
+def split(
+    relief: Relief, mask: Mask, *, depth_sigma_m: NDArray[np.floating], flattest: float
+) -> NDArray[np.int32]:
     """Labels (rows, cols) from 1 of the rocks in a mask of what stands on the ground.
 
     depth_sigma_m (rows, cols) is the standard deviation of the depth. Heights are smoothed by a
@@ -58,7 +61,7 @@ def split(relief: Relief, mask: Mask, *, depth_sigma_m: NDArray[np.floating]) ->
     jump; of what is left, two are one unless the valley is as deep as a quarter of the lower one's
     height or half of the common border jumps in depth. Regions under five pixels wide, which noise
     leaves along steep sides, go to the neighbour with the longest common border; those less than
-    8 % as high as wide are swellings of the ground and dropped.
+    `flattest` as high as wide are swellings of the ground and dropped.
     """
     pixels = np.flatnonzero(mask)
     labels = np.zeros(mask.shape, dtype=np.int32)
@@ -76,7 +79,7 @@ def split(relief: Relief, mask: Mask, *, depth_sigma_m: NDArray[np.floating]) ->
         region = _merge(region, _borders(region, height, links), peak, rise)
     region = _without_slivers(region, links, mask, pixels)
     labels.ravel()[pixels] = region + 1
-    return _without_flat(labels, relief)
+    return _without_flat(labels, relief, flattest)
 
 
 def _link(
@@ -204,8 +207,8 @@ def _without_slivers(region: Whole, links: _Links, mask: Mask, pixels: Whole) ->
     return home[region]
 
 
-def _without_flat(labels: NDArray[np.int32], relief: Relief) -> NDArray[np.int32]:
-    """Labels without regions less than 8 % as high as they are wide."""
+def _without_flat(labels: NDArray[np.int32], relief: Relief, flattest: float) -> NDArray[np.int32]:
+    """Labels without regions less than `flattest` as high as they are wide."""
     keep = np.zeros(int(labels.max()) + 1, dtype=bool)
     for number, window in enumerate(ndi.find_objects(labels), start=1):
         if window is None:
@@ -214,5 +217,5 @@ def _without_flat(labels: NDArray[np.int32], relief: Relief) -> NDArray[np.int32
         if own.any():
             width = (window[1].stop - window[1].start) * relief.pixel_rad
             width *= float(relief.depth_m[window][own].mean())
-            keep[number] = float(relief.height_m[window][own].max()) >= FLATTEST * width
+            keep[number] = float(relief.height_m[window][own].max()) >= flattest * width
     return np.where(keep[labels], labels, 0)

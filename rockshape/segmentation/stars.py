@@ -52,14 +52,17 @@ class _Polar:
     inside: Mask  # the frame
 
 
-def propose(lightness: Lightness) -> Stars | None:
+def propose(lightness: Lightness, *, taken: Mask) -> Stars | None:
     """Outlines round all seeds: what is unlike the ground and no cast shadow, and its cores.
 
     In polar coordinates about a seed the path minimises, over its inside, the price of pixels that
     look like ground or cast shadow, over its outside the price of the seed's own, less the strength
-    of the edges it follows. None without a seed.
+    of the edges it follows. Seeds whose middle is taken (rows, cols) are left out; None without
+    any other.
     """
     seeds = _seeds(lightness)
+    middle = np.rint(seeds[:, :2]).astype(np.intp)
+    seeds = seeds[~taken[middle[:, 1], middle[:, 0]]]
     if len(seeds) == 0:
         return None
     parts = [_trace(lightness, seeds[i : i + AT_ONCE]) for i in range(0, len(seeds), AT_ONCE)]
@@ -85,24 +88,20 @@ def _seeds(lightness: Lightness) -> Floats:
     seeds: list[tuple[float, float, float]] = []
     for mask, eaten in ((solid, 0), (closed, 0), *((depth > px, px) for px in DEPTHS_PX)):
         fewest = 0.3 * FEWEST_PIXELS if eaten else FEWEST_PIXELS
-        count, parts, stats, _ = cv2.connectedComponentsWithStats(
-            mask.astype(np.uint8), connectivity=4
+        contours, _ = cv2.findContours(
+            mask.astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE
         )
-        for number in range(1, count):
-            left, top, wide, high, pixels = stats[number]
-            if pixels < fewest:
+        for contour in contours:
+            # Pick's theorem: the pixels within and on a border through their centres
+            if cv2.contourArea(contour) + len(contour) / 2 + 1 < fewest:
                 continue
-            own = parts[top : top + high, left : left + wide] == number
-            contours, _ = cv2.findContours(
-                own.astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE
-            )
-            hull = cv2.convexHull(max(contours, key=len))
+            hull = cv2.convexHull(contour)
             moments = cv2.moments(hull)
             if moments["m00"] <= 4:
                 continue
             x, y = moments["m10"] / moments["m00"], moments["m01"] / moments["m00"]
             radius = float(np.hypot(hull[:, 0, 0] - x, hull[:, 0, 1] - y).max())
-            seeds.append((left + x, top + y, radius + eaten))
+            seeds.append((x, y, radius + eaten))
     return np.array(seeds).reshape(-1, 3)
 
 

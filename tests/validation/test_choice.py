@@ -110,7 +110,7 @@ def test_a_suite_without_pictured_scenes_keeps_no_portraits(suite) -> None:
     assert [spec["pictured"] for spec in specs] == [False, False]
 
 
-def test_a_large_run_still_fits_the_page(suite) -> None:
+def test_a_large_run_still_fits_the_page(suite, run) -> None:
     large = msgspec.structs.replace(
         suite,
         experiments=tuple(
@@ -119,8 +119,11 @@ def test_a_large_run_still_fits_the_page(suite) -> None:
         ),
     )
     records = fabricate(large, rng=np.random.default_rng(4))
-    run = assess(large, (), units(records))
-    html = page_html(run, command="c", seconds=1.0)
+    made = {each.portraits[0].picture.place: each for each in units(records)}
+    albums = {(p.experiment, p.series, p.scene): each.album for p, each in made.items()}
+    html = page_html(
+        replace(run, suite=large, records=records, albums=albums), command="c", seconds=1.0
+    )
     assert 1_000_000 < len(html.encode()) <= MAX_BYTES
     assert "of 900 rocks, a row for each view: those of the pictured scenes" in html
     assert "Shades: all 3600 points" in html

@@ -247,7 +247,8 @@ def test_a_phone_shows_it_without_scrolling_sideways(page, address, dark) -> Non
 
 def test_words_stand_out_from_their_ground(page, address) -> None:
     contrast = """(() => { const style = getComputedStyle(document.documentElement);
-        const of = name => { const hex = style.getPropertyValue(name).trim(); const parts = [1, 3, 5].map(i => {
+        const of = name => { const hex = style.getPropertyValue(name).trim();
+        const parts = [1, 3, 5].map(i => {
         const v = parseInt(hex.slice(i, i + 2), 16) / 255;
         return v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4; });
         return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2]; };

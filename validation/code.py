@@ -14,6 +14,7 @@ _OWN = (
     "match.py",
     "truth.py",
     "pictures.py",
+    "portraits.py",
     "store.py",
     "measures",
     "segments",

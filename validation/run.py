@@ -1,7 +1,7 @@
 """Run a suite: its units on an executor, then scores, then gates."""
 
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 
@@ -14,7 +14,7 @@ from validation.claims import Claim, all_claims, all_view_claims
 from validation.dispatch import OnDone, dispatch
 from validation.gates import Found, Gate, GateResult, evaluate
 from validation.oracle import mixed, oracle, shuffled
-from validation.pictures import Picture
+from validation.pictures import Album, Picture
 from validation.scores import Score, gate_scores, score_records
 from validation.scores.yard import VIEW_PREFIX
 from validation.store import StoredPicture, StoredResult, UnitStore, unit_key
@@ -58,6 +58,7 @@ class Run:
     scores: tuple[Score, ...]
     gates: tuple[GateResult, ...]
     checks: tuple[Check, ...]  # oracle, shuffled, mixed
+    albums: Mapping[tuple[str, str, int], Album]  # of each experiment, series and scene
 
     @property
     def passed(self) -> bool:
@@ -95,10 +96,13 @@ def assess(suite: Suite, gates: Sequence[Gate], results: Iterable[Result]) -> Ru
     tables: list[pd.DataFrame] = []
     pictures: list[AnyPicture] = []
     backends: set[str] = set()
+    albums: dict[tuple[str, str, int], Album] = {}
     for result in results:
         tables.append(result.records)
         pictures.extend(result.pictures)
         backends.add(result.backend)
+        experiment, series, scene = result.records[["experiment", "series", "scene"]].iloc[0]
+        albums[str(experiment), str(series), int(scene)] = result.album
     records = pd.concat(tables, ignore_index=True)
     scores = score_records(suite, records)
     found = {score.name: Found(score.value, score.low, score.high) for score in scores}
@@ -143,6 +147,7 @@ def assess(suite: Suite, gates: Sequence[Gate], results: Iterable[Result]) -> Ru
         )
         if checked
         else (),
+        albums=albums,
     )
 
 

@@ -1,7 +1,7 @@
 """Unit results on disk: one Parquet file a unit, under the hash of all that it depends on.
 
-A file holds the records; its metadata hold the pictures and the renderer. It is written beside its
-place and renamed, so that it is whole or not there.
+A file holds the records; its metadata hold the pictures, the portraits and the renderer. It is
+written beside its place and renamed, so that it is whole or not there.
 """
 
 import hashlib
@@ -11,14 +11,17 @@ import os
 import shutil
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
+from functools import partial
 from pathlib import Path
 
+import msgspec
 import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 
 from validation.code import code_digest
 from validation.errors import InputError
+from validation.pictures import Album, Mark, Portrait
 from validation.records import Place
 from validation.units import Unit, UnitResult, spec_of
 
@@ -27,6 +30,13 @@ FOLDER = "units"  # within the folder of a run
 _MARK = "format.json"
 _HEAD = b"rockshape"
 _PICTURE = b"rockshape.picture."
+_PORTRAITS = b"rockshape.portraits"
+
+
+def _held(file: Path | io.BytesIO) -> dict[bytes, bytes]:
+    """Return what a unit's file holds beside its records."""
+    found: dict[bytes, bytes] | None = pq.read_metadata(file).metadata
+    return found or {}
 
 
 @dataclass(frozen=True)
@@ -37,13 +47,14 @@ class StoredPicture:
     width_px: int
     height_px: int
     size_bytes: int
+    marks: tuple[Mark, ...]
     path: Path  # the unit's file
     index: int
 
     @property
     def jpeg(self) -> bytes:
         """Read the JPEG."""
-        found: bytes = pq.read_schema(self.path).metadata[_PICTURE + str(self.index).encode()]
+        found: bytes = _held(self.path)[_PICTURE + str(self.index).encode()]
         return found
 
 
@@ -54,6 +65,18 @@ class StoredResult:
     records: pd.DataFrame
     pictures: tuple[StoredPicture, ...]
     backend: str
+    path: Path  # the unit's file
+
+    @property
+    def album(self) -> Album:
+        """Return what reads the portraits; it holds no records."""
+        return partial(read_portraits, self.path)
+
+
+def read_portraits(path: Path) -> tuple[Portrait, ...]:
+    """Read the portraits that a unit's file holds."""
+    packed: bytes = _held(path)[_PORTRAITS]
+    return msgspec.msgpack.decode(packed, type=tuple[Portrait, ...])
 
 
 def pack(result: UnitResult) -> bytes:
@@ -67,21 +90,27 @@ def pack(result: UnitResult) -> bytes:
                 "width_px": p.width_px,
                 "height_px": p.height_px,
                 "bytes": p.size_bytes,
+                "marks": msgspec.to_builtins(p.marks),
             }
             for p in result.pictures
         ],
     }
+    held = {_PICTURE + str(i).encode(): p.jpeg for i, p in enumerate(result.pictures)}
+    held |= {
+        _HEAD: json.dumps(head).encode(),
+        _PORTRAITS: msgspec.msgpack.encode(result.portraits),
+    }
     table = pa.Table.from_pandas(result.records, preserve_index=False)
-    metadata = {**(table.schema.metadata or {}), _HEAD: json.dumps(head).encode()}
-    metadata |= {_PICTURE + str(i).encode(): p.jpeg for i, p in enumerate(result.pictures)}
     buffer = io.BytesIO()
-    pq.write_table(table.replace_schema_metadata(metadata), buffer)
+    with pq.ParquetWriter(buffer, table.schema) as writer:
+        writer.write_table(table)
+        writer.add_key_value_metadata(held)  # in the schema, pyarrow would write it all twice
     return buffer.getvalue()
 
 
 def code_of(packed: bytes) -> str:
     """Return the digest of the code that made a packed result."""
-    head = json.loads(pq.read_schema(io.BytesIO(packed)).metadata[_HEAD])
+    head = json.loads(_held(io.BytesIO(packed))[_HEAD])
     return str(head["code"])
 
 
@@ -113,8 +142,8 @@ class UnitStore:
         if not keep:
             shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True, exist_ok=True)
-        for partial in folder.glob("*/*.partial"):
-            partial.unlink()
+        for unfinished in folder.glob("*/*.partial"):
+            unfinished.unlink()
         (folder / _MARK).write_text(json.dumps({"format": FORMAT}) + "\n", encoding="utf-8")
         self._folder = folder
 
@@ -125,7 +154,7 @@ class UnitStore:
     def has(self, key: str) -> bool:
         """Tell whether a whole result of a key is there."""
         try:
-            return _HEAD in (pq.read_schema(self.path(key)).metadata or {})
+            return _HEAD in _held(self.path(key))
         except (OSError, pa.ArrowInvalid):
             return False
 
@@ -144,7 +173,7 @@ class UnitStore:
         """Read the result of a key."""
         path = self.path(key)
         table = pq.read_table(path)
-        head = json.loads(table.schema.metadata[_HEAD])
+        head = json.loads(_held(path)[_HEAD])
         return StoredResult(
             records=table.to_pandas(),
             pictures=tuple(
@@ -153,12 +182,14 @@ class UnitStore:
                     width_px=shown["width_px"],
                     height_px=shown["height_px"],
                     size_bytes=shown["bytes"],
+                    marks=msgspec.convert(shown["marks"], tuple[Mark, ...]),
                     path=path,
                     index=index,
                 )
                 for index, shown in enumerate(head["pictures"])
             ),
             backend=head["backend"],
+            path=path,
         )
 
     def results(self, keys: Sequence[str]) -> Iterator[StoredResult]:

@@ -12,7 +12,6 @@ import pandas as pd
 import scipy.ndimage as ndi
 from numpy.typing import NDArray
 
-from rockshape.draw import overlay
 from rockshape.io import read_camera, read_image, read_labels, read_range
 from rockshape.observation import Observation
 from rockshape.pipeline import measure
@@ -21,7 +20,8 @@ from synth.dataset import write_common, write_scene
 from synth.render import choose_backend
 from synth.shapes import write_series
 from validation.measures import MeasureSpec, Seen, run_measure, source_digest
-from validation.pictures import Picture, compress
+from validation.pictures import Picture, Portrait
+from validation.portraits import portraits, whole_view
 from validation.records import Place, join
 from validation.segments.unit import run_scene
 from validation.suite import SegmentationExperiment, ShapesExperiment, Suite, YardExperiment
@@ -74,6 +74,11 @@ class UnitResult:
     records: pd.DataFrame  # one row a view, method (or way) and rock: true, found or both
     pictures: tuple[Picture, ...]
     backend: str  # the renderer, empty for drawings
+    portraits: tuple[Portrait, ...] = ()
+
+    def album(self) -> tuple[Portrait, ...]:
+        """Return the portraits."""
+        return self.portraits
 
 
 def units_of(suite: Suite) -> tuple[Unit, ...]:
@@ -111,7 +116,11 @@ def spec_of(unit: Unit) -> dict[str, object]:
     spec: dict[str, object] = msgspec.to_builtins(unit.experiment)
     for name in ("title", "scenes", "drawings", "varied", "pictured"):
         spec.pop(name, None)
-    spec |= {"scene_number": unit.scene, "pictured": _is_pictured(unit)}
+    spec |= {
+        "scene_number": unit.scene,
+        "pictured": _is_pictured(unit),
+        "portrayed": _is_portrayed(unit),
+    }
     if isinstance(unit, SegmentationUnit):
         return spec
     spec["measures"] = [
@@ -127,6 +136,13 @@ def spec_of(unit: Unit) -> dict[str, object]:
 
 def _is_pictured(unit: Unit) -> bool:
     return unit.scene < (1 if isinstance(unit, DrawingUnit) else unit.experiment.pictured)
+
+
+def _is_portrayed(unit: Unit) -> bool:
+    """Whether each rock's portrait is kept: not where no scene is to be pictured."""
+    if isinstance(unit, SegmentationUnit):
+        return False
+    return isinstance(unit, DrawingUnit) or unit.experiment.pictured > 0
 
 
 def _true_centres(instances: NDArray[np.int32]) -> pd.DataFrame:
@@ -169,15 +185,16 @@ class View:
     min_iou: float
 
 
-def _measure_view(view: View, unit: MeasuredUnit) -> tuple[pd.DataFrame, Picture | None]:
+def _measure_view(view: View, unit: MeasuredUnit) -> UnitResult:
     """Measure a view by the methods, then by measures from elsewhere on the first one's labels."""
+    image = view.observation.image
     found = [
         measure(view.observation, method=method, labels=view.given)
         for method in unit.experiment.methods
     ]
     labels = found[0].labels
     tables = [(each.method, each.labels, to_frame(each)) for each in found]
-    seen = Seen(view.observation.image, labels, view.observation.points_m)
+    seen = Seen(image, labels, view.observation.points_m)
     tables += [(spec.name, labels, run_measure(spec, seen)) for spec in unit.measures]
     records = pd.concat(
         [
@@ -193,11 +210,14 @@ def _measure_view(view: View, unit: MeasuredUnit) -> tuple[pd.DataFrame, Picture
         ],
         ignore_index=True,
     )
-    if not _is_pictured(unit):
-        return records, None
-    place = replace(view.place, method=found[0].method)
-    drawn = overlay(view.observation.image, found[0])
-    return records, Picture(place, *compress(drawn, labels))
+    return UnitResult(
+        records,
+        pictures=(whole_view(image, found[0], view.place),) if _is_pictured(unit) else (),
+        backend="",
+        portraits=portraits(image, found, view.instances, records, view.place)
+        if _is_portrayed(unit)
+        else (),
+    )
 
 
 def _scene_views(unit: SceneUnit, folder: Path) -> tuple[list[View], str]:
@@ -269,7 +289,8 @@ def run_unit(unit: Unit) -> UnitResult:
     views, backend = views_of(unit)
     measured = [_measure_view(view, unit) for view in views]
     return UnitResult(
-        records=pd.concat([records for records, _ in measured], ignore_index=True),
-        pictures=tuple(picture for _, picture in measured if picture is not None),
+        records=pd.concat([view.records for view in measured], ignore_index=True),
+        pictures=tuple(picture for view in measured for picture in view.pictures),
         backend=backend,
+        portraits=tuple(portrait for view in measured for portrait in view.portraits),
     )

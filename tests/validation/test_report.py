@@ -4,53 +4,46 @@ import json
 import re
 from html.parser import HTMLParser
 
-import cv2
 import numpy as np
 import pandas as pd
 import pytest
 from junitparser import JUnitXml
 
+from tests.validation.pictured import units
 from validation.claims import Claim
 from validation.errors import InputError
 from validation.oracle import oracle
-from validation.pictures import Picture, compress, crop_box
-from validation.records import Place
 from validation.report import check_target, write_run
-from validation.report.charts import Points, scatter
+from validation.report.charts import CELLS, Points, scatter, span
 from validation.report.ranks import rank_table
 from validation.report.words import interval, number
 from validation.run import assess
-from validation.units import UnitResult
 
 FILES = {"index.html", "scores.json", "results.parquet", "junit.xml", "summary.md"}
-
-
-def picture() -> Picture:
-    labels = np.zeros((60, 80), np.int32)
-    labels[20:40, 30:60] = 1
-    overlay = np.full((120, 160, 3), 90, np.uint8)
-    return Picture(Place("yard", "yard", "", 0, 10000, 0, "paper"), *compress(overlay, labels))
 
 
 @pytest.fixture(scope="module", params=["noise", "oracle"])
 def run(request, suite, claims, noise):
     records = oracle(noise, claims) if request.param == "oracle" else noise
-    return assess(suite, suite.gates, [UnitResult(records, (picture(),), "embree")])
+    return assess(suite, suite.gates, units(records))
 
 
 class _Links(HTMLParser):
     def __init__(self) -> None:
         super().__init__()
         self.links: list[str] = []
+        self.names: list[str] = []
         self.open: list[str] = []
 
     def handle_starttag(self, tag, attrs) -> None:
         self.links += [value for name, value in attrs if name in {"src", "href"}]
-        if tag not in {"meta", "br", "img", "wbr"}:
+        self.names += [value for name, value in attrs if name == "id"]
+        if tag not in {"meta", "br", "img", "wbr", "input"}:
             self.open.append(tag)
 
     def handle_startendtag(self, tag, attrs) -> None:
-        pass
+        self.handle_starttag(tag, attrs)
+        self.open = self.open[: -1 if self.open[-1:] == [tag] else None]
 
     def handle_endtag(self, tag) -> None:
         assert self.open.pop() == tag
@@ -91,9 +84,12 @@ def test_the_page_needs_nothing_else_and_is_well_formed(run, tmp_path) -> None:
     links.feed(page)
     assert links.open == []
     assert links.links
-    assert all(link.startswith("data:") for link in links.links)
-    assert not re.search(r"@import|url\(|<script", page)
-    assert "nan" not in re.sub(r"<style>.*?</style>|data:[^\"]*", "", page, flags=re.S).lower()
+    assert all(link.startswith(("data:image/jpeg;base64,", "#")) for link in links.links)
+    assert all(link[1:] in links.names for link in links.links if link.startswith("#"))
+    assert len(links.names) == len(set(links.names))
+    assert not re.search(r"@import|url\(|<script src|https?:", page)
+    told = re.sub(r"<style>.*?</style>|<script>.*?</script>|data:[^\"]*", "", page, flags=re.S)
+    assert "nan" not in told.lower()
     assert len(page) < 5_000_000
 
 
@@ -141,44 +137,59 @@ def test_intervals_for_reading() -> None:
     assert interval(float("nan"), 0.2) == ""
 
 
-def test_crop_box_keeps_every_label_inside_the_image() -> None:
-    labels = np.zeros((100, 200), np.int32)
-    assert crop_box(labels) == (0, 100, 0, 200)
-    labels[0:10, 100:150] = 3
-    top, bottom, left, right = crop_box(labels)
-    assert (top, left, right) == (0, 92, 158)
-    assert bottom == 18
-
-
-def test_compress_scales_the_cut_to_the_overlay() -> None:
-    shown = picture()
-    decoded = cv2.imdecode(np.frombuffer(shown.jpeg, np.uint8), cv2.IMREAD_COLOR)
-    assert decoded.shape == (shown.height_px, shown.width_px, 3)
-    assert (shown.width_px, shown.height_px) == (92, 72)  # 30 + 16 by 20 + 16 labels, twice
+def points(x, y, *, drawn=None, place="rock-0") -> Points:
+    rows = np.arange(len(x)) if drawn is None else np.array(drawn)
+    return Points(
+        x=np.array(x, dtype=np.float64),
+        y=np.array(y, dtype=np.float64),
+        drawn=rows,
+        view=tuple(7 * int(row) for row in rows),
+        label=tuple(f"a & {row}" for row in rows),
+        place=(place,) * len(rows),
+    )
 
 
 def test_a_chart_marks_every_finite_point() -> None:
-    points = Points(
-        x=np.array([0.1, 0.2, np.nan]),
-        y=np.array([1.0, 500.0, 3.0]),
-        view=np.array([0, 7, 1]),
-        label=("a & b", "c", "d"),
-    )
-    svg = str(scatter(points, x_title="x", y_title="y", summary="s"))
-    assert svg.count("<title>") == 2
-    assert "a &amp; b" in svg
-    assert "(log)" in svg
-    nothing = Points(x=np.array([np.nan]), y=np.array([1.0]), view=np.array([0]), label=("",))
+    three = points([0.1, 0.2, np.nan], [1.0, 500.0, 3.0])
+    svg = str(scatter(three, x_title="x", y_title="y", summary="s"))
+    assert svg.count("<title>") == svg.count('href="#rock-0"') == 2
+    assert svg.count('tabindex="0"') == 1
+    assert "a &amp; 1" in svg
+    assert "y (log)" in svg
+    assert "shade" not in svg
+    nothing = points([np.nan], [1.0])
     assert "Nothing was measured" in scatter(nothing, x_title="x", y_title="y", summary="s")
+
+
+def test_a_point_without_a_place_leads_to_the_words_that_say_so() -> None:
+    lone = points([1.0, 2.0], [1.0, 2.0], place=None)
+    svg = str(scatter(lone, x_title="x", y_title="y", summary="s", unshown="rule-yard"))
+    assert svg.count('href="#rule-yard" class="bare"') == 2
+
+
+def test_a_chart_of_many_points_shades_them_and_marks_few() -> None:
+    rng = np.random.default_rng(3)
+    many = points(rng.uniform(size=9000), rng.normal(size=9000), drawn=[5, 80])
+    svg = str(scatter(many, x_title="x", y_title="y", summary="s"))
+    assert svg.count("<title>") == 2
+    cells = sum(d.count("M") for d in re.findall(r'class="shade s\d" d="([^"]*)"', svg))
+    assert 100 < cells <= CELLS[0] * CELLS[1]
+    assert len(svg) < 40_000
 
 
 @pytest.mark.parametrize("values", [[2.0], [2.0, 2.0], [0.0, 0.0], [-5.0, 7.0], [1e-9, 1e9]])
 def test_axes_of_any_values_have_marks(values) -> None:
-    y = np.array(values)
-    points = Points(x=y, y=y, view=np.zeros(y.size, np.intp), label=("",) * y.size)
-    svg = str(scatter(points, x_title="x", y_title="y", summary="s"))
+    svg = str(scatter(points(values, values), x_title="x", y_title="y", summary="s"))
     assert svg.count('class="grid"') >= 4
     assert "nan" not in svg
+    assert "−0<" not in svg
+
+
+def test_a_span_shows_value_and_interval() -> None:
+    shown = str(span(0.5, 0.0, 0.75, start=-1, end=1))
+    assert 'cx="88.0"' in shown
+    assert "M60.0 7H102.0" in shown
+    assert span(float("nan"), 0, 1, start=0, end=1) == ""
 
 
 def test_ranks_do_not_shift_for_a_missing_rock() -> None:

@@ -1,4 +1,8 @@
-"""Charts as inline SVG, coloured by the page's style so that they follow light and dark."""
+"""Charts as inline SVG, coloured by the page's style so that they follow light and dark.
+
+A point is a link to its rock; where points are too many, shades tell how many lie where, and the
+points worth a look stand on them.
+"""
 
 from dataclasses import dataclass
 
@@ -6,12 +10,22 @@ import numpy as np
 from markupsafe import Markup, escape
 from numpy.typing import NDArray
 
-WIDTH, HEIGHT = 340.0, 250.0
-LEFT, RIGHT, TOP, BOTTOM = 66.0, 12.0, 14.0, 40.0
-VIEW_STYLES = 6  # colours and marks repeat after so many views
-LOG_FROM = 20.0  # a measure whose values span more than this factor gets a logarithmic axis
+from validation.report.axes import Axis, axis_of, tick_text
 
-WIDE = 300.0  # a logarithmic axis over more than this factor marks the decades alone
+WIDTH, HEIGHT = 340.0, 250.0
+LEFT, RIGHT, TOP, BOTTOM = 62.0, 12.0, 14.0, 40.0
+VIEW_STYLES = 6  # colours and marks repeat after so many views
+CELLS = (30, 22)  # of shades, across and down
+SHADES = 5
+
+_SHAPES = (
+    '<circle r="3.4"/>',
+    '<path d="M-3.1-3.1h6.2v6.2h-6.2z"/>',
+    '<path d="M0-4.2l4 7h-8z"/>',
+    '<path d="M0-4.4l4.4 4.4l-4.4 4.4l-4.4-4.4z"/>',
+    '<path d="M0 4.2l4-7h-8z"/>',
+    '<path d="M-4.4-2.2h8.8v4.4h-8.8z"/>',
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,111 +34,116 @@ class Points:
 
     x: NDArray[np.float64]
     y: NDArray[np.float64]
-    view: NDArray[np.intp]
+    drawn: NDArray[np.intp]  # which are drawn as points; the others are in the shades alone
+    view: tuple[int, ...]  # of those drawn, as all below
     label: tuple[str, ...]
+    place: tuple[str | None, ...]  # the rock's place in the page; None where it has none
 
 
-@dataclass(frozen=True)
-class _Axis:
-    low: float
-    high: float
-    log: bool
-    start: float  # place of low in the picture
-    end: float  # place of high
-
-    def place(self, value: float) -> float:
-        """Return the picture's coordinate of a value."""
-        low, high, at = self.low, self.high, value
-        if self.log:
-            low, high, at = np.log10(low), np.log10(high), np.log10(value)
-        return self.start + (self.end - self.start) * (at - low) / (high - low)
-
-    def ticks(self) -> list[float]:
-        """Return round values inside the axis."""
-        if self.log:
-            lowest, highest = np.floor(np.log10(self.low)), np.ceil(np.log10(self.high))
-            decades = 10.0 ** np.arange(lowest, highest + 1)
-            steps = (1.0,) if self.high / self.low > WIDE else (1.0, 2.0, 5.0)
-            values = [float(step * decade) for decade in decades for step in steps]
-        else:
-            step = 10.0 ** np.floor(np.log10((self.high - self.low) / 2.0))
-            step *= next(m for m in (1.0, 2.0, 5.0) if (self.high - self.low) / (m * step) <= 6)
-            values = list(np.arange(np.ceil(self.low / step), self.high / step + 1e-9) * step)
-        return [value for value in values if self.low <= value <= self.high]
-
-
-def _axis(values: NDArray[np.float64], start: float, end: float) -> _Axis:
-    low, high = float(values.min()), float(values.max())
-    if low > 0 and high / low > LOG_FROM:
-        return _Axis(low / 1.3, high * 1.3, True, start, end)
-    pad = 0.06 * (high - low) or max(abs(high), 1.0) * 0.1
-    return _Axis(low - pad, high + pad, False, start, end)
-
-
-def _mark(x: float, y: float, view: int, title: str) -> str:
-    style = view % VIEW_STYLES
-    shapes = (
-        f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.4"',
-        f'<rect x="{x - 3.1:.1f}" y="{y - 3.1:.1f}" width="6.2" height="6.2"',
-        f'<path d="M{x:.1f} {y - 4.2:.1f}l4 7h-8z"',
-        f'<path d="M{x:.1f} {y - 4.4:.1f}l4.4 4.4l-4.4 4.4l-4.4-4.4z"',
-        f'<path d="M{x:.1f} {y + 4.2:.1f}l4-7h-8z"',
-        f'<rect x="{x - 4.4:.1f}" y="{y - 2.2:.1f}" width="8.8" height="4.4"',
-    )
-    name = "circle" if style == 0 else "rect" if style in (1, 5) else "path"
-    return f'{shapes[style]} class="v{style}"><title>{escape(title)}</title></{name}>'
+def mark_symbols() -> Markup:
+    """Return the marks of the views, which every chart draws on."""
+    return Markup("".join(f'<g id="k{i}">{shape}</g>' for i, shape in enumerate(_SHAPES)))
 
 
 def view_key(view: int) -> Markup:
     """Return the mark of a view for a legend."""
+    style = view % VIEW_STYLES
     return Markup(
-        f'<svg class="key" viewBox="0 0 12 12" aria-hidden="true">{_mark(6, 6, view, "")}</svg>'
+        f'<svg class="key" viewBox="-6 -6 12 12" aria-hidden="true">'
+        f'<use href="#k{style}" class="v{style}"/></svg>'
     )
 
 
-def scatter(points: Points, *, x_title: str, y_title: str, summary: str) -> Markup:
+def scatter(
+    points: Points, *, x_title: str, y_title: str, summary: str, unshown: str = "unshown"
+) -> Markup:
     """Return an SVG of points with two axes; `summary` is what a screen reader says.
 
-    Points without a finite x and y are left out; without any, a line says so.
+    Points without a finite x and y are left out; without any, a line says so. A point whose rock
+    the page does not show leads to the place `unshown`.
     """
-    shown = np.isfinite(points.x) & np.isfinite(points.y)
-    if not shown.any():
+    finite = np.isfinite(points.x) & np.isfinite(points.y)
+    if not finite.any():
         return Markup('<p class="quiet">Nothing was measured.</p>')
-    across = _axis(points.x[shown], LEFT, WIDTH - RIGHT)
-    up = _axis(points.y[shown], HEIGHT - BOTTOM, TOP)
+    across = axis_of(points.x[finite], LEFT, WIDTH - RIGHT, straight=True)
+    up = axis_of(points.y[finite], HEIGHT - BOTTOM, TOP)
+    x, y = np.full(points.x.shape, np.nan), np.full(points.y.shape, np.nan)
+    x[finite], y[finite] = across.places(points.x[finite]), up.places(points.y[finite])
     parts = [
-        f'<svg class="chart" viewBox="0 0 {WIDTH:.0f} {HEIGHT:.0f}" role="img" '
-        f'aria-label="{escape(summary)}">'
+        f'<svg class="chart" viewBox="0 0 {WIDTH:.0f} {HEIGHT:.0f}" role="group" '
+        f'aria-label="{escape(summary)}">',
+        _grid(across, up),
     ]
-    for tick in up.ticks():
-        y = up.place(tick)
-        parts.append(f'<path class="grid" d="M{LEFT} {y:.1f}H{WIDTH - RIGHT}"/>')
-        parts.append(f'<text x="{LEFT - 6}" y="{y + 4:.1f}" class="end">{_tick(tick)}</text>')
-    for tick in across.ticks():
-        x = across.place(tick)
-        parts.append(f'<path class="grid" d="M{x:.1f} {TOP}V{HEIGHT - BOTTOM}"/>')
+    if points.drawn.size < points.x.size:
+        parts.append(_shades(x[finite], y[finite]))
+    order = sorted(
+        (i for i, row in enumerate(points.drawn) if finite[row]),
+        key=lambda i: float(x[points.drawn[i]]),
+    )
+    for turn, i in enumerate(order):
+        row, style = points.drawn[i], points.view[i] % VIEW_STYLES
+        place = points.place[i]
+        link = f'href="#{escape(unshown)}" class="bare"' if place is None else f'href="#{place}"'
         parts.append(
-            f'<text x="{x:.1f}" y="{HEIGHT - BOTTOM + 15}" class="mid">{_tick(tick)}</text>'
+            f'<a {link} data-view="{points.view[i]}" tabindex="{0 if turn == 0 else -1}">'
+            f'<use href="#k{style}" class="v{style}" x="{x[row]:.1f}" y="{y[row]:.1f}"/>'
+            f"<title>{escape(points.label[i])}</title></a>"
         )
-    parts += [
-        _mark(
-            across.place(points.x[i]), up.place(points.y[i]), int(points.view[i]), points.label[i]
-        )
-        for i in np.flatnonzero(shown)
-    ]
-    scale = " (log)" if up.log else ""
     middle_x, middle_y = (LEFT + WIDTH - RIGHT) / 2, (TOP + HEIGHT - BOTTOM) / 2
     parts.append(
         f'<text x="{middle_x}" y="{HEIGHT - 6}" class="mid">{escape(x_title)}</text>'
         f'<text transform="translate(12 {middle_y}) rotate(-90)" class="mid">'
-        f"{escape(y_title + scale)}</text></svg>"
+        f"{escape(y_title + (' (log)' if up.log else ''))}</text></svg>"
     )
     return Markup("".join(parts))
 
 
-def _tick(value: float) -> str:
-    """Return a mark's number, at most seven characters wide."""
-    if value == 0 or 1e-3 <= abs(value) < 1e4:
-        return f"{value:.3g}".replace("-", "−")
-    digits, exponent = f"{value:.1e}".split("e")
-    return f"{digits}e{int(exponent)}".replace("-", "−")
+def _grid(across: Axis, up: Axis) -> str:
+    parts = []
+    for tick in up.ticks():
+        y = up.place(tick)
+        parts.append(f'<path class="grid" d="M{LEFT} {y:.1f}H{WIDTH - RIGHT}"/>')
+        parts.append(f'<text x="{LEFT - 6}" y="{y + 4:.1f}" class="end">{tick_text(tick)}</text>')
+    for tick in across.ticks():
+        x = across.place(tick)
+        parts.append(f'<path class="grid" d="M{x:.1f} {TOP}V{HEIGHT - BOTTOM}"/>')
+        parts.append(
+            f'<text x="{x:.1f}" y="{HEIGHT - BOTTOM + 15}" class="mid">{tick_text(tick)}</text>'
+        )
+    return "".join(parts)
+
+
+def _shades(x: NDArray[np.float64], y: NDArray[np.float64]) -> str:
+    """Return cells shaded by how many points they hold, on a logarithmic scale."""
+    box = ((LEFT, WIDTH - RIGHT), (TOP, HEIGHT - BOTTOM))
+    counts, edges_x, edges_y = np.histogram2d(x, y, bins=CELLS, range=box)
+    scale = np.log1p(counts) / np.log1p(counts.max())
+    level = np.ceil(scale * SHADES).astype(int)
+    wide, high = edges_x[1] - edges_x[0], edges_y[1] - edges_y[0]
+    return "".join(
+        f'<path class="shade s{shade}" d="'
+        + "".join(
+            f"M{edges_x[i]:.1f} {edges_y[j]:.1f}h{wide:.1f}v{high:.1f}h-{wide:.1f}z"
+            for i, j in np.argwhere(level == shade)
+        )
+        + '"/>'
+        for shade in range(1, SHADES + 1)
+        if (level == shade).any()
+    )
+
+
+def span(value: float, low: float, high: float, *, start: float, end: float) -> Markup:
+    """Return a value as a dot with its interval as a line, on the way from `start` to `end`."""
+    if not np.isfinite(value):
+        return Markup("")
+
+    def at(number: float) -> float:
+        return 4 + 112 * (min(max(number, start), end) - start) / (end - start)
+
+    line = f'<path d="M{at(low):.1f} 7H{at(high):.1f}"/>' if np.isfinite(low) and high > low else ""
+    zero = f'<path class="grid" d="M{at(0):.1f} 0V14"/>' if start < 0 < end else ""
+    return Markup(
+        '<svg class="span" viewBox="0 0 120 14" aria-hidden="true">'
+        f'<path class="grid" d="M4 7H116"/>{zero}{line}<circle cx="{at(value):.1f}" cy="7" r="4"/>'
+        "</svg>"
+    )

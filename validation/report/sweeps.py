@@ -7,7 +7,9 @@ from markupsafe import Markup
 
 from rockshape.measures import METHODS
 from validation.report.lines import Line, line_chart
-from validation.report.sections import ShownPicture, own_pictures
+from validation.report.rocks import RockTable, rock_table
+from validation.report.sections import Room
+from validation.report.shown import ShownPicture, shown_pictures
 from validation.run import Run
 from validation.scores import Key, Score
 from validation.suite import YardExperiment
@@ -23,9 +25,11 @@ class SweepSection:
     """A sweep's charts by what they show, its recall by method and step, its pictures."""
 
     experiment: YardExperiment
+    steps: tuple[str, ...]  # as the page writes them
     charts: tuple[tuple[str, tuple[tuple[str, Markup], ...]], ...]  # heading: (measure, chart)
     recall: tuple[tuple[str, tuple[Score, ...]], ...]  # method, a score a step
     measured: tuple[tuple[str, tuple[float, ...]], ...]  # method and measure, share with a value
+    table: RockTable
     pictures: tuple[ShownPicture, ...]
 
 
@@ -69,13 +73,13 @@ def _measured(run: Run, experiment: YardExperiment) -> tuple[tuple[str, tuple[fl
     return tuple(rows)
 
 
-def sweep_section(run: Run, experiment: YardExperiment) -> SweepSection:
+def sweep_section(run: Run, experiment: YardExperiment, room: Room) -> SweepSection:
     """Return what the page shows of an experiment with a sweep."""
     if experiment.sweep is None:
         raise ValueError(f"{experiment.name}: expected an experiment with a sweep")
     scores = {score.name: score for score in run.scores}
     sweep = experiment.sweep
-    shown = [step.replace("p", ".") if step[0].isdigit() else step for step in sweep.steps]
+    steps = tuple(s.replace("p", ".") if s[0].isdigit() else s for s in sweep.steps)
     charts = tuple(
         (
             heading,
@@ -87,7 +91,7 @@ def sweep_section(run: Run, experiment: YardExperiment) -> SweepSection:
                             _line(scores, experiment, method, column, statistic)
                             for method, column in columns.items()
                         ],
-                        steps=shown,
+                        steps=steps,
                         x_title=sweep.title,
                         title=f"{title}: {heading}",
                         most=most,
@@ -100,6 +104,7 @@ def sweep_section(run: Run, experiment: YardExperiment) -> SweepSection:
     )
     return SweepSection(
         experiment=experiment,
+        steps=steps,
         charts=charts,
         recall=tuple(
             (
@@ -111,5 +116,6 @@ def sweep_section(run: Run, experiment: YardExperiment) -> SweepSection:
             for method in experiment.methods
         ),
         measured=_measured(run, experiment),
-        pictures=own_pictures(run, experiment.name),
+        table=rock_table(run, experiment, room.chosen),
+        pictures=shown_pictures(run, experiment.name, room.chosen, share=room.share),
     )

@@ -17,6 +17,8 @@ _OWN = (
     "store.py",
     "measures",
     "segments",
+    "design/places.py",
+    "design/unit.py",
 )
 _DISTRIBUTIONS = (
     "arcade-pyrender",

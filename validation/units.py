@@ -20,11 +20,18 @@ from rockshape.table import to_frame
 from synth.dataset import write_common, write_scene
 from synth.render import choose_backend
 from synth.shapes import write_series
+from validation.design.unit import run_design
 from validation.measures import MeasureSpec, Seen, run_measure, source_digest
 from validation.pictures import Picture, compress
 from validation.records import Place, join
 from validation.segments.unit import run_scene
-from validation.suite import SegmentationExperiment, ShapesExperiment, Suite, YardExperiment
+from validation.suite import (
+    DesignExperiment,
+    SegmentationExperiment,
+    ShapesExperiment,
+    Suite,
+    YardExperiment,
+)
 from validation.truth import (
     SceneTruth,
     read_instances,
@@ -61,8 +68,16 @@ class SegmentationUnit:
     scene: int
 
 
+@dataclass(frozen=True)
+class DesignUnit:
+    """Scene number `scene` of a designed experiment, in all its cells."""
+
+    experiment: DesignExperiment
+    scene: int
+
+
 MeasuredUnit = SceneUnit | DrawingUnit
-Unit = MeasuredUnit | SegmentationUnit
+Unit = MeasuredUnit | SegmentationUnit | DesignUnit
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,6 +99,8 @@ def units_of(suite: Suite) -> tuple[Unit, ...]:
             ]
         elif isinstance(experiment, SegmentationExperiment):
             units += [SegmentationUnit(experiment, scene) for scene in range(experiment.scenes)]
+        elif isinstance(experiment, DesignExperiment):
+            units += [DesignUnit(experiment, scene) for scene in range(experiment.scenes)]
         else:
             units += [
                 DrawingUnit(experiment, series, drawing, suite.measures)
@@ -108,7 +125,7 @@ def spec_of(unit: Unit) -> dict[str, object]:
     for name in ("title", "scenes", "drawings", "varied", "pictured"):
         spec.pop(name, None)
     spec |= {"scene_number": unit.scene, "pictured": _is_pictured(unit)}
-    if isinstance(unit, SegmentationUnit):
+    if isinstance(unit, SegmentationUnit | DesignUnit):
         return spec
     spec["measures"] = [
         {"name": m.name, "function": m.function, "command": m.command, "source": source_digest(m)}
@@ -120,6 +137,8 @@ def spec_of(unit: Unit) -> dict[str, object]:
 
 
 def _is_pictured(unit: Unit) -> bool:
+    if isinstance(unit, DesignUnit):
+        return False
     return unit.scene < (1 if isinstance(unit, DrawingUnit) else unit.experiment.pictured)
 
 
@@ -260,6 +279,9 @@ def run_unit(unit: Unit) -> UnitResult:
     if isinstance(unit, SegmentationUnit):
         with _data_folder() as folder:
             return UnitResult(*run_scene(unit.experiment, unit.scene, folder))
+    if isinstance(unit, DesignUnit):
+        records, backend = run_design(unit.experiment, unit.scene)
+        return UnitResult(records=records, pictures=(), backend=backend)
     views, backend = views_of(unit)
     measured = [_measure_view(view, unit) for view in views]
     return UnitResult(

@@ -157,7 +157,9 @@ class DesignExperiment(
         _check_methods(self.name, self.methods)
         scene, where = self.scene, f"experiment {self.name!r}"
         if list(self.distances_m) != sorted(set(self.distances_m)):
-            raise ValueError(f"{where}: distances_m: expected them rising, found {self.distances_m}")
+            raise ValueError(
+                f"{where}: distances_m: expected them rising, found {self.distances_m}"
+            )
         for name, levels in (("suns", self.suns), ("rolls_deg", self.rolls_deg)):
             if any(level in levels[:i] for i, level in enumerate(levels)):
                 raise ValueError(f"{where}: {name}: expected levels that differ")

@@ -46,7 +46,7 @@ def cells(rng: np.random.Generator, **sizes: float) -> tuple[np.ndarray, np.ndar
 
 def test_the_parts_sum_to_what_a_user_sees() -> None:
     rng = np.random.default_rng(1)
-    sizes = {cause: 1.0 for cause in CAUSES}
+    sizes = dict.fromkeys(CAUSES, 1.0)
     for _ in range(20):
         clean, found, noisy = cells(rng, **sizes)
         parts = split(clean, found, noisy)
@@ -117,7 +117,9 @@ def test_the_grid_alone_does_not_pass_for_view_or_distance() -> None:
     assert means["rest"] == pytest.approx(0.01, rel=0.05)
     assert means["distance"] == pytest.approx(0.0, abs=1e-4)
     assert means["view"] == pytest.approx(0.0, abs=3e-4)
-    assert [means[c] for c in ("light", "noise", "segmentation")] == pytest.approx([0] * 3, abs=1e-12)
+    assert [means[c] for c in ("light", "noise", "segmentation")] == pytest.approx(
+        [0] * 3, abs=1e-12
+    )
 
 
 def test_noise_alone_is_noise_alone() -> None:
@@ -314,7 +316,7 @@ def test_scores_gates_checks_and_reports_take_a_design(small, experiment, result
     )
 
 
-def test_known_measurers_of_a_design(small, experiment, result) -> None:
+def test_known_measurers_of_a_design(small, result) -> None:
     knows = oracle(result.records, ())
     values = score_values(small, knows)
     assert values["d.robust.axis_ratio.share_view"] == pytest.approx(1.0, abs=1e-9)

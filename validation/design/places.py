@@ -32,7 +32,9 @@ def scenes_of(spec: SceneSpec, experiment: DesignExperiment) -> tuple[tuple[Scen
         tuple(
             replace(
                 near,
-                rocks=tuple(_outwards(rock, distance_m / experiment.distances_m[0]) for rock in near.rocks),
+                rocks=tuple(
+                    _outwards(rock, distance_m / experiment.distances_m[0]) for rock in near.rocks
+                ),
                 poses=tuple(
                     stations(
                         msgspec.structs.replace(

@@ -134,13 +134,13 @@ def _truth(
     cut = np.bincount(view.labels.ravel(), outside.ravel(), minlength=len(rocks) + 1)[1:]
     table = pd.DataFrame(rocks)
     whole = (table["visible_fraction"] >= experiment.min_visible_fraction) & (cut == 0)
-    truth = table[["instance", *_TRUTHS]].rename(columns={name: f"truth_{name}" for name in _TRUTHS})
+    truth = table[["instance", *_TRUTHS]].rename(
+        columns={name: f"truth_{name}" for name in _TRUTHS}
+    )
     return truth.assign(eligible=whole & ~table["truncated"].astype(bool))
 
 
-def _measured(
-    experiment: DesignExperiment, scene: int, shot: Shot, camera: Camera
-) -> pd.DataFrame:
+def _measured(experiment: DesignExperiment, scene: int, shot: Shot, camera: Camera) -> pd.DataFrame:
     exact = Observation(image=shot.image, points_m=camera.unproject(shot.exact_m), camera=camera)
     noisy = replace(exact, points_m=camera.unproject(shot.noisy_m))
     tables = []

@@ -50,15 +50,14 @@ def parts_of(cubes: Cubes) -> Floats:
 def _pooled(table: Floats, value: Callable[[Floats], float]) -> Estimate:
     """Return a statistic of the rocks' mean row, (rocks, …); rocks that are NaN count for none."""
     flat = table.reshape(len(table), -1)
-    known = np.isfinite(flat).all(axis=1)
+    known = np.asarray(np.isfinite(flat).all(axis=1))
     if not known.any():
         return Estimate(float("nan"), 0)
     rows = np.where(known[:, None], flat, 0.0)
 
     def weighted(weights: Floats) -> float:
-        total = weights @ known
-        mean = (weights @ rows / total).reshape(table.shape[1:]) if total > 0 else None
-        return float("nan") if mean is None else value(mean)
+        total = float(weights[known].sum())
+        return value((weights @ rows).reshape(table.shape[1:]) / total) if total else float("nan")
 
     return Estimate(weighted(np.ones(len(table))), int(known.sum()), len(table), weighted)
 

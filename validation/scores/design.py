@@ -19,7 +19,7 @@ from validation.agreement import (
 )
 from validation.design.cubes import Cubes, cubes_of
 from validation.design.outlines import TRUTH_OF, explained_share, moments_of
-from validation.design.parts import CAUSES, split
+from validation.design.parts import CAUSES, FEWEST_VIEWS, split
 from validation.naming import REFERENCE
 from validation.scores.score import Better, Definition, Estimate, Key
 from validation.suite import DesignExperiment
@@ -75,6 +75,16 @@ def _cv(cubes: Cubes) -> Estimate:
     return _pooled(parts_of(cubes), lambda mean: float(np.sqrt(mean[-1])))
 
 
+def _cv_clean(cubes: Cubes) -> Estimate:
+    """Return the same of the clean values alone, over the views with all of them."""
+    table = np.full(len(cubes.clean), np.nan)
+    for rock, clean in enumerate(cubes.clean):
+        whole = np.isfinite(clean).all(axis=(1, 2))
+        if whole.sum() >= FEWEST_VIEWS and clean[whole].mean() != 0.0:
+            table[rock] = clean[whole].var() / clean[whole].mean() ** 2
+    return _pooled(table, lambda mean: float(np.sqrt(mean)))
+
+
 def _true_share(cubes: Cubes) -> Estimate:
     rocks = zip(cubes.clean, cubes.found, cubes.noisy, cubes.outlines, strict=True)
     return _pooled(np.stack([moments_of(*rock) for rock in rocks]), explained_share)
@@ -125,6 +135,7 @@ def _order(
 _STATISTICS: tuple[tuple[str, str, str, str, Better, Compute], ...] = (
     ("cv", "how far a rock's value moves in all, relative (root of mean square)", "1", "rocks",
      "lower", _cv),
+    ("cv_clean", "the same with true masks and exact range", "1", "rocks", "lower", _cv_clean),
     *(
         (f"share_{cause}", f"share of that variance by {TITLES[cause]}", "share", "rocks",
          "neither", _share(cause))

@@ -80,6 +80,7 @@ def print_tables(scores: dict[str, dict[str, Any]]) -> None:
     heads = (
         "method",
         "measure",
+        "CV clean, %",
         "CV, %",
         *(NAMES[c] for c in CAUSES),
         "true share of view",
@@ -87,7 +88,7 @@ def print_tables(scores: dict[str, dict[str, Any]]) -> None:
     )
     print("| " + " | ".join(heads) + " |\n|" + " --- |" * len(heads))
     for method, column, start in columns():
-        row = [cell(scores[start + "cv"])]
+        row = [cell(scores[start + name]) for name in ("cv_clean", "cv")]
         row += [cell(scores[f"{start}share_{cause}"]) for cause in CAUSES]
         row += [cell(scores.get(start + "true_share")), str(scores[start + "cv"]["count"])]
         print(f"| {method} | `{column}` | " + " | ".join(row) + " |")
@@ -97,14 +98,20 @@ def print_tables(scores: dict[str, dict[str, Any]]) -> None:
         "clean",
         "found",
         "noisy",
-        "τ_b of two frames",
+        "shared, clean",
+        "noisy",
+        "τ_b of two frames, clean",
+        "noisy",
         "one frame",
         "two frames",
     )
     print("\n| " + " | ".join(heads) + " |\n|" + " --- |" * len(heads))
     for method, column, start in columns():
         row = [cell(scores[f"{start}measured_{state}"]) for state in ("clean", "found", "noisy")]
-        row += [cell(scores[start + "tau_frames"], percent=False)]
+        row += [cell(scores[start + name]) for name in ("shared_clean", "shared")]
+        row += [
+            cell(scores[start + name], percent=False) for name in ("tau_frames_clean", "tau_frames")
+        ]
         row += [cell(scores[start + name]) for name in ("order_within", "order_across")]
         print(f"| {method} | `{column}` | " + " | ".join(row) + " |")
 
@@ -137,7 +144,7 @@ def draw(scores: dict[str, dict[str, Any]], path: Path) -> None:
         labels = []
         for measure, start in zip(measures, starts, strict=True):
             cv = scores[start + "cv"]["value"]
-            moved = "not measured" if cv is None else f"moves by {100 * cv:.0f} %"
+            moved = "refused in the noise" if cv is None else f"moves by {100 * cv:.0f} %"
             labels.append(f"{measure.column}\n{moved}")
         axis.set_yticks(places, labels, fontsize=9)
         axis.axvline(0, color="#333333", linewidth=0.8)

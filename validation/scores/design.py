@@ -17,9 +17,11 @@ from validation.agreement import (
     tau_b,
     within_views,
 )
+from validation.design.common import movements
 from validation.design.cubes import Cubes, cubes_of
 from validation.design.outlines import TRUTH_OF, explained_share, moments_of
 from validation.design.parts import CAUSES, FEWEST_VIEWS, split
+from validation.design.unit import CLEAN, FOUND, NOISY, STATES
 from validation.naming import REFERENCE
 from validation.scores.score import Better, Definition, Estimate, Key
 from validation.suite import DesignExperiment
@@ -90,12 +92,23 @@ def _true_share(cubes: Cubes) -> Estimate:
     return _pooled(np.stack([moments_of(*rock) for rock in rocks]), explained_share)
 
 
+def _shared(state: str) -> Compute:
+    def compute(cubes: Cubes) -> Estimate:
+        values = cubes.clean if state == CLEAN else cubes.noisy
+        flat = values.reshape(len(values), -1)
+        found = movements(flat, rocks_a_scene=cubes.rocks_a_scene)
+        value = found.shared(np.ones(len(flat)))
+        return Estimate(value, len(found.first), len(flat), found.shared)
+
+    return compute
+
+
 def _measured(state: str) -> Compute:
     """Return the share of the cells, of rocks seen whole, in which there is a value."""
 
     def compute(cubes: Cubes) -> Estimate:
-        values = cubes.clean if state == "clean" else getattr(cubes, state)
-        seen = cubes.eligible if state == "clean" else cubes.eligible[:, :, :, None, :]
+        values = {CLEAN: cubes.clean, FOUND: cubes.found, NOISY: cubes.noisy}[state]
+        seen = cubes.eligible if state == CLEAN else cubes.eligible[:, :, :, None, :]
         seen = np.broadcast_to(seen, values.shape).reshape(len(values), -1)
         good = np.isfinite(values).reshape(len(values), -1) & seen
         counts = np.column_stack([good.sum(axis=1), seen.sum(axis=1)]).astype(np.float64)
@@ -105,8 +118,9 @@ def _measured(state: str) -> Compute:
     return compute
 
 
-def _blocks(cubes: Cubes) -> tuple[Block, ...]:
+def _blocks(cubes: Cubes, state: str) -> tuple[Block, ...]:
     """Return a block (cells, rocks) for each scene, ranked by the rocks' clean means."""
+    values = cubes.clean if state == CLEAN else cubes.noisy
     scenes = range(0, len(cubes.clean), cubes.rocks_a_scene)
     blocks = []
     for first in scenes:
@@ -115,16 +129,18 @@ def _blocks(cubes: Cubes) -> tuple[Block, ...]:
         total = np.where(known, cubes.clean[own], 0.0).sum(axis=(1, 2, 3))
         count = known.sum(axis=(1, 2, 3))
         means = np.where(count > 0, total / np.maximum(count, 1), np.nan)
-        cells = cubes.noisy[own].reshape(cubes.rocks_a_scene, -1).T
+        cells = values[own].reshape(cubes.rocks_a_scene, -1).T
         blocks.append(Block(values=cells, truth=means))
     return tuple(blocks)
 
 
 def _order(
-    pairs_of: Callable[[Sequence[Block]], Pairs], value: Callable[[Pairs, Floats | None], float]
+    state: str,
+    pairs_of: Callable[[Sequence[Block]], Pairs],
+    value: Callable[[Pairs, Floats | None], float],
 ) -> Compute:
     def compute(cubes: Cubes) -> Estimate:
-        pairs = pairs_of(_blocks(cubes))
+        pairs = pairs_of(_blocks(cubes, state))
         return Estimate(
             value(pairs, None), pairs.decided, pairs.rocks, lambda weights: value(pairs, weights)
         )
@@ -144,14 +160,20 @@ _STATISTICS: tuple[tuple[str, str, str, str, Better, Compute], ...] = (
     *(
         (f"measured_{state}", f"cells with a value, {state}", "share", "cells", "higher",
          _measured(state))
-        for state in ("clean", "found", "noisy")
+        for state in STATES
     ),
+    ("shared", "what all rocks of a frame share of their movement", "share", "pairs of rocks",
+     "neither", _shared(NOISY)),
+    ("shared_clean", "the same with true masks and exact range", "share", "pairs of rocks",
+     "neither", _shared(CLEAN)),
     ("tau_frames", "agreement of two frames' rankings (mean pairwise τ_b)", "1", "pairs",
-     "higher", _order(between_views, tau_b)),
+     "higher", _order(NOISY, between_views, tau_b)),
+    ("tau_frames_clean", "the same with true masks and exact range", "1", "pairs", "higher",
+     _order(CLEAN, between_views, tau_b)),
     ("order_within", "pairs of one frame in the order of the rocks' means", "share", "pairs",
-     "higher", _order(within_views, share_in_order)),
+     "higher", _order(NOISY, within_views, share_in_order)),
     ("order_across", "pairs of any two frames in the order of the rocks' means", "share", "pairs",
-     "higher", _order(across_views, share_in_order)),
+     "higher", _order(NOISY, across_views, share_in_order)),
 )  # fmt: skip
 _TRUE: tuple[str, str, str, str, Better, Compute] = (
     "true_share", "share of the variance between views that the true outline explains (R²)",

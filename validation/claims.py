@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from rockshape.measures import METHODS
 from validation.measures import Trait
 from validation.suite import (
+    DesignExperiment,
     Experiment,
     SegmentationExperiment,
     ShapesExperiment,
@@ -112,9 +113,10 @@ def _shape_truth(column: str, trait: Trait) -> str:
 def claims_of(suite: Suite, experiment: Experiment) -> tuple[Claim, ...]:
     """Return the claims that an experiment can judge, by what it varies, then by method.
 
-    A segmentation measures nothing and claims nothing.
+    A segmentation measures nothing and claims nothing; a designed experiment asks what moves
+    values, not what they are.
     """
-    if isinstance(experiment, SegmentationExperiment):
+    if isinstance(experiment, SegmentationExperiment | DesignExperiment):
         return ()
     columns = list(_columns(suite, experiment))
     if isinstance(experiment, YardExperiment):

@@ -18,6 +18,8 @@ _OWN = (
     "store.py",
     "measures",
     "segments",
+    "design/places.py",
+    "design/unit.py",
 )
 _DISTRIBUTIONS = (
     "arcade-pyrender",

@@ -10,6 +10,9 @@ from msgspec import Meta, Struct, field
 
 from rockshape.measures import METHODS
 from synth.spec import SceneSpec
+from synth.spec.ground import GroundSpec
+from synth.spec.limits import Degrees
+from synth.spec.view import SunSpec
 from validation.errors import InputError
 from validation.gates import Gate, GateFile
 from validation.measures import MeasureSpec, Name, Text
@@ -142,7 +145,55 @@ class SegmentationExperiment(
                 )
 
 
-Experiment = YardExperiment | ShapesExperiment | SegmentationExperiment
+class DesignExperiment(
+    Struct, frozen=True, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="design"
+):
+    """The same rocks in every cell of views × distances × suns × rolls: what moves their values.
+
+    Scene i of the experiment is scene 0 of `scene` with the seed `seed` + i, its rocks placed for
+    the least distance. `rolls_deg` turn the camera about its axis: the same truth on another grid
+    of pixels.
+    """
+
+    name: Name
+    title: Text
+    seed: Seed
+    scenes: Annotated[int, Meta(ge=1, le=9999)]
+    distances_m: Annotated[tuple[Annotated[float, Meta(gt=0)], ...], Meta(min_length=2)]
+    suns: Annotated[tuple[SunSpec, ...], Meta(min_length=2)]
+    rolls_deg: Annotated[tuple[Degrees, ...], Meta(min_length=2)]
+    scene: SceneSpec
+    methods: Methods = tuple(METHODS)
+    min_visible_fraction: Annotated[float, Meta(ge=0, le=1)] = 0.99
+    min_iou: Annotated[float, Meta(gt=0, le=1)] = 0.5
+
+    def __post_init__(self) -> None:
+        """Ask for known methods, for levels that differ, and for rocks that can be moved."""
+        _check_methods(self.name, self.methods)
+        scene, where = self.scene, f"experiment {self.name!r}"
+        if list(self.distances_m) != sorted(set(self.distances_m)):
+            raise ValueError(
+                f"{where}: distances_m: expected them rising, found {self.distances_m}"
+            )
+        for name, levels in (("suns", self.suns), ("rolls_deg", self.rolls_deg)):
+            if any(level in levels[:i] for i, level in enumerate(levels)):
+                raise ValueError(f"{where}: {name}: expected levels that differ")
+        camera = msgspec.structs.replace(scene.camera, distance_m=None, roll_deg=0.0)
+        beside = (scene.seed, scene.scenes, scene.sun, scene.camera)
+        if beside != (0, 1, SunSpec(), camera):
+            raise ValueError(
+                f"{where}: expected seed, scenes, suns, distances_m and rolls_deg beside its name, "
+                "found one of them under scene"
+            )
+        if scene.noise.kind == "none":
+            raise ValueError(f"{where}: scene.noise.kind: expected stereo or sgm, found none")
+        if scene.population.kind != "count" or scene.ground != GroundSpec():
+            raise ValueError(f"{where}: scene: expected counted rocks on the plain level ground")
+        if scene.views.count < 2 or scene.views.path == "drive-by":
+            raise ValueError(f"{where}: scene.views: expected two or more at one distance")
+
+
+Experiment = YardExperiment | ShapesExperiment | SegmentationExperiment | DesignExperiment
 
 
 class Suite(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):

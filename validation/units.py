@@ -19,12 +19,19 @@ from rockshape.table import to_frame
 from synth.dataset import write_common, write_scene
 from synth.render import choose_backend
 from synth.shapes import write_series
+from validation.design.unit import run_design
 from validation.measures import MeasureSpec, Seen, run_measure, source_digest
 from validation.pictures import Picture, Portrait
 from validation.portraits import portraits, whole_view
 from validation.records import Place, join
 from validation.segments.unit import run_scene
-from validation.suite import SegmentationExperiment, ShapesExperiment, Suite, YardExperiment
+from validation.suite import (
+    DesignExperiment,
+    SegmentationExperiment,
+    ShapesExperiment,
+    Suite,
+    YardExperiment,
+)
 from validation.truth import (
     SceneTruth,
     read_instances,
@@ -63,8 +70,16 @@ class SegmentationUnit:
     scene: int
 
 
+@dataclass(frozen=True)
+class DesignUnit:
+    """Scene number `scene` of a designed experiment, in all its cells."""
+
+    experiment: DesignExperiment
+    scene: int
+
+
 MeasuredUnit = SceneUnit | DrawingUnit
-Unit = MeasuredUnit | SegmentationUnit
+Unit = MeasuredUnit | SegmentationUnit | DesignUnit
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,6 +108,8 @@ def units_of(suite: Suite) -> tuple[Unit, ...]:
             ]
         elif isinstance(experiment, SegmentationExperiment):
             units += [SegmentationUnit(experiment, scene) for scene in range(experiment.scenes)]
+        elif isinstance(experiment, DesignExperiment):
+            units += [DesignUnit(experiment, scene) for scene in range(experiment.scenes)]
         else:
             units += [
                 DrawingUnit(experiment, series, drawing, suite.measures)
@@ -104,8 +121,9 @@ def units_of(suite: Suite) -> tuple[Unit, ...]:
 
 def describe(unit: Unit) -> str:
     """Return a unit's name for the progress."""
-    series = "" if isinstance(unit, SegmentationUnit) or not unit.series else f" {unit.series}"
-    return f"{unit.experiment.name}{series} {unit.experiment.seed + unit.scene}"
+    series = unit.series if isinstance(unit, MeasuredUnit) else ""
+    words = (unit.experiment.name, series, str(unit.experiment.seed + unit.scene))
+    return " ".join(word for word in words if word)
 
 
 def spec_of(unit: Unit) -> dict[str, object]:
@@ -121,7 +139,7 @@ def spec_of(unit: Unit) -> dict[str, object]:
         "pictured": _is_pictured(unit),
         "portrayed": _is_portrayed(unit),
     }
-    if isinstance(unit, SegmentationUnit):
+    if isinstance(unit, SegmentationUnit | DesignUnit):
         return spec
     spec["measures"] = [
         {"name": m.name, "function": m.function, "command": m.command, "source": source_digest(m)}
@@ -135,12 +153,14 @@ def spec_of(unit: Unit) -> dict[str, object]:
 
 
 def _is_pictured(unit: Unit) -> bool:
+    if isinstance(unit, DesignUnit):
+        return False
     return unit.scene < (1 if isinstance(unit, DrawingUnit) else unit.experiment.pictured)
 
 
 def _is_portrayed(unit: Unit) -> bool:
     """Whether each rock's portrait is kept: not where no scene is to be pictured."""
-    if isinstance(unit, SegmentationUnit):
+    if isinstance(unit, SegmentationUnit | DesignUnit):
         return False
     return isinstance(unit, DrawingUnit) or unit.experiment.pictured > 0
 
@@ -286,6 +306,9 @@ def run_unit(unit: Unit) -> UnitResult:
     if isinstance(unit, SegmentationUnit):
         with _data_folder() as folder:
             return UnitResult(*run_scene(unit.experiment, unit.scene, folder))
+    if isinstance(unit, DesignUnit):
+        records, backend = run_design(unit.experiment, unit.scene)
+        return UnitResult(records=records, pictures=(), backend=backend)
     views, backend = views_of(unit)
     measured = [_measure_view(view, unit) for view in views]
     return UnitResult(

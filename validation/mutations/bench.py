@@ -16,8 +16,8 @@ from validation.gates import evaluate, gates_on
 from validation.mutations.mutation import Mutation
 from validation.records import join
 from validation.scores import gate_scores, score_names
-from validation.suite import SegmentationExperiment, Suite, YardExperiment
-from validation.units import SegmentationUnit, View, units_of, views_of
+from validation.suite import DesignExperiment, SegmentationExperiment, Suite, YardExperiment
+from validation.units import MeasuredUnit, View, units_of, views_of
 
 
 @dataclass(frozen=True)
@@ -108,14 +108,14 @@ def _mutated(view: View, found: Measurement, mutation: Mutation) -> pd.DataFrame
 def part_of(suite: Suite, *, scenes: int, method: str) -> Suite:
     """Return a method's part of a suite: its first scenes and the gates on its scores.
 
-    Gates of other methods and experiments of segmentation, which measure nothing, are left out.
+    Gates of other methods are left out, and experiments that claim nothing: segmentations, designs.
     """
     experiments = tuple(
         msgspec.structs.replace(e, methods=(method,), scenes=min(scenes, e.scenes))
         if isinstance(e, YardExperiment)
         else msgspec.structs.replace(e, methods=(method,))
         for e in suite.experiments
-        if not isinstance(e, SegmentationExperiment)
+        if not isinstance(e, SegmentationExperiment | DesignExperiment)
     )
     small = msgspec.structs.replace(suite, experiments=experiments)
     return msgspec.structs.replace(small, gates=gates_on(suite.gates, score_names(small)))
@@ -127,7 +127,7 @@ def prepare_bench(suite: Suite, *, scenes: int, method: str) -> Bench:
     views = [
         (view, measure(view.observation, method=method, labels=view.given))
         for unit in units_of(small)
-        if not isinstance(unit, SegmentationUnit)
+        if isinstance(unit, MeasuredUnit)
         for view in views_of(unit)[0]
     ]
     records = [_joined(view, found, to_frame(found)) for view, found in views]

@@ -6,9 +6,15 @@ import pandas as pd
 
 from validation.claims import claims_of, view_claims_of
 from validation.gates import Found, Gate
-from validation.scores import garden, segmentation, shapes, yard
+from validation.scores import design, garden, segmentation, shapes, yard
 from validation.scores.score import Definition, Key, Score, estimate
-from validation.suite import Experiment, SegmentationExperiment, Suite, YardExperiment
+from validation.suite import (
+    DesignExperiment,
+    Experiment,
+    SegmentationExperiment,
+    Suite,
+    YardExperiment,
+)
 
 __all__ = [
     "Definition",
@@ -25,6 +31,8 @@ __all__ = [
 def _of_experiment(suite: Suite, experiment: Experiment) -> Sequence[Definition]:
     if isinstance(experiment, SegmentationExperiment):
         return segmentation.definitions(experiment)
+    if isinstance(experiment, DesignExperiment):
+        return design.definitions(experiment)
     claims = claims_of(suite, experiment)
     if isinstance(experiment, YardExperiment):
         field = garden.definitions(experiment) if garden.is_garden(experiment) else ()

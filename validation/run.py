@@ -1,50 +1,25 @@
 """Run a suite: its units on an executor, then scores, then gates."""
 
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 
 import msgspec
-import numpy as np
 import pandas as pd
 
 from synth.render import choose_backend
-from validation.claims import Claim, all_claims, all_view_claims
+from validation.checks import Check, self_checks
 from validation.dispatch import OnDone, dispatch
 from validation.gates import Found, Gate, GateResult, evaluate
-from validation.oracle import mixed, oracle, shuffled
 from validation.pictures import Album, Picture
-from validation.scores import Score, gate_scores, score_records
-from validation.scores.yard import VIEW_PREFIX
+from validation.scores import Score, score_records
 from validation.store import StoredPicture, StoredResult, UnitStore, unit_key
 from validation.suite import Experiment, ShapesExperiment, Suite
 from validation.units import UnitResult, units_of
 
 AnyPicture = Picture | StoredPicture
 Result = UnitResult | StoredResult
-
-SHUFFLE_SEED = 6
-
-
-@dataclass(frozen=True)
-class Check:
-    """The suite's own gates on records whose verdict is known before."""
-
-    name: str
-    fed: str  # what was fed in, in words
-    knows: bool  # whether it knows the truth, and must pass every gate, or must not
-    gates: tuple[GateResult, ...]
-
-    @property
-    def passes(self) -> tuple[str, ...]:
-        """The scores whose gates it passed."""
-        return tuple(result.gate.score for result in self.gates if result.passed)
-
-    @property
-    def sound(self) -> bool:
-        """Whether the verdict is the one it must be."""
-        return (len(self.passes) == len(self.gates)) == self.knows
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,10 +41,6 @@ class Run:
         return all(gate.passed for gate in self.gates)
 
 
-def _statistic(gate: Gate) -> str:
-    return gate.score.rpartition(".")[2]
-
-
 def default_jobs() -> int:
     """Return the number of processors this process may use."""
     if hasattr(os, "sched_getaffinity"):
@@ -88,11 +59,7 @@ def _with_backend(experiment: Experiment) -> Experiment:
 
 
 def assess(suite: Suite, gates: Sequence[Gate], results: Iterable[Result]) -> Run:
-    """Score the results and hold the scores, and those of the known measurers, to the gates.
-
-    Gates on a level are no part of the checks: the truth is not in the measure's unit.
-    """
-    rng = np.random.default_rng(SHUFFLE_SEED)
+    """Score the results and hold the scores, and those of the known measurers, to the gates."""
     tables: list[pd.DataFrame] = []
     pictures: list[AnyPicture] = []
     backends: set[str] = set()
@@ -106,18 +73,6 @@ def assess(suite: Suite, gates: Sequence[Gate], results: Iterable[Result]) -> Ru
     records = pd.concat(tables, ignore_index=True)
     scores = score_records(suite, records)
     found = {score.name: Found(score.value, score.low, score.high) for score in scores}
-    checked = [gate for gate in gates if not gate.score.endswith(".level")]
-    of_view = [gate for gate in checked if _statistic(gate).startswith(VIEW_PREFIX)]
-    of_rock = [gate for gate in checked if gate not in of_view]
-
-    def gated(feed: Callable[[Sequence[Claim]], pd.DataFrame]) -> tuple[GateResult, ...]:
-        return tuple(
-            result
-            for held, claims in ((of_rock, all_claims(suite)), (of_view, all_view_claims(suite)))
-            if held
-            for result in evaluate(held, gate_scores(suite, held, feed(claims)))
-        )
-
     return Run(
         suite=suite,
         records=records,
@@ -125,28 +80,7 @@ def assess(suite: Suite, gates: Sequence[Gate], results: Iterable[Result]) -> Ru
         backend=", ".join(sorted(backends - {""})),
         scores=scores,
         gates=evaluate(gates, found),
-        checks=(
-            Check(
-                "oracle",
-                "the truth as measurement",
-                True,
-                gated(lambda claims: oracle(records, claims)),
-            ),
-            Check(
-                "shuffled",
-                "the truth of other rocks",
-                False,
-                gated(lambda claims: shuffled(records, claims, rng=rng)),
-            ),
-            Check(
-                "mixed",
-                "the values of other rocks",
-                False,
-                gated(lambda claims: mixed(records, claims, rng=rng)),
-            ),
-        )
-        if checked
-        else (),
+        checks=self_checks(suite, gates, records),
         albums=albums,
     )
 

@@ -6,15 +6,20 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from validation.claims import all_view_claims
 from validation.gates import Gate, evaluate
 from validation.oracle import mixed, oracle, shuffled
 from validation.scores import definitions, gate_scores, score_records, score_values
 from validation.scores.shapes import gap_shares
 
 
-def held(suite, records):
-    """Hold records to the suite's gates but those on a level: the truth has no degrees."""
-    gates = [gate for gate in suite.gates if not gate.score.endswith(".level")]
+def held(suite, records, *, views=False):
+    """Hold records to the gates on rocks or on views; a level has no truth."""
+    gates = [
+        gate
+        for gate in suite.gates
+        if not gate.score.endswith(".level") and (".view_" in gate.score) == views
+    ]
     return evaluate(gates, gate_scores(suite, gates, records))
 
 
@@ -37,6 +42,13 @@ def test_the_oracle_scores_one(suite, claims, noise, ranking) -> None:
 def test_the_oracle_passes_every_gate_of_the_suite(suite, claims, noise) -> None:
     results = held(suite, oracle(noise, claims))
     assert [r.gate.score for r in results if not r.passed] == []
+
+
+def test_what_the_views_show_passes_every_gate_on_views(suite, noise) -> None:
+    results = held(suite, oracle(noise, all_view_claims(suite)), views=True)
+    assert results
+    assert [r.gate.score for r in results if not r.passed] == []
+    assert not all(r.passed for r in held(suite, noise, views=True))
 
 
 def test_shuffled_truth_fails_every_gate_on_the_order_against_it(

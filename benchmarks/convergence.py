@@ -178,7 +178,7 @@ def scales(count: int) -> None:
 
 def boxes(count: int) -> None:
     """Print by how much a search from many random turns finds boxes smaller than the truth's."""
-    turns = Rotation.random(TURNS, rng=np.random.default_rng(0)).as_matrix()
+    turns = Rotation.random(TURNS, random_state=0).as_matrix()
     print(f"\n| boxes of | rocks | volume above that of the best of {TURNS} searches |")
     print("| --- | --- | --- |")
     for name, maker in makers().items():

@@ -82,7 +82,8 @@ def _thinned(corners_m: Floats) -> Floats:
     """Return the points that are farthest along a few hundred directions, all of fewer points."""
     if len(corners_m) <= _COARSE:
         return corners_m
-    return corners_m[np.unique(np.argmax(spread_directions(_COARSE) @ corners_m.T, 1))]
+    farthest = np.argmax(spread_directions(_COARSE) @ corners_m.T, axis=1)
+    return np.asarray(corners_m[np.unique(farthest)])
 
 
 def _starts(normals: Floats, corners_m: Floats, margin_m: float) -> Floats:

@@ -39,7 +39,7 @@ def generate_dataset(
 
     Raises:
         InputError: `out` is a file, a folder of something else or the dataset of another spec;
-            or the rocks do not fit on the ground.
+            the rocks do not fit on the ground, or the files not on the disk.
         MissingBackendError: the machine lacks the renderer.
     """
     if jobs < 1:
@@ -184,6 +184,9 @@ def _rendered(
             f"{out}: expected rendering processes to live, found one killed: "
             "with fewer --jobs they need less memory"
         ) from error
+    except OSError as error:
+        pool.shutdown(wait=True, cancel_futures=True)
+        raise InputError(f"{out}: expected room for files, found {error.strerror}") from error
     except BaseException:
         pool.shutdown(wait=True, cancel_futures=True)
         raise

@@ -77,9 +77,8 @@ class Painter:
             )
         if supersample > 1:
             edges = np.flatnonzero(_jumps(bright, labels))
-            most = max(1, _AT_ONCE // supersample**2)
-            for start in range(0, len(edges), most):
-                part = edges[start : start + most]
+            parts = -(-len(edges) * supersample**2 // _AT_ONCE)  # none without an edge
+            for part in np.array_split(edges, parts) if parts else ():
                 value.ravel()[part] = self._refined(camera, pose, part, supersample)
         return value
 

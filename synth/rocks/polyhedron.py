@@ -106,7 +106,7 @@ def tangent_cuts(half_axes_m: Floats, *, cuts: int, rng: np.random.Generator) ->
             continue
         if np.linalg.norm(ball.vertices_m, axis=1).max() < 2.0:
             return ball.mapped(np.diag(half_axes_m))
-    raise InputError(f"cuts: expected enough to bound a rock, found {cuts}")
+    raise InputError(f"rocks.cuts: expected enough to bound a rock, found {cuts}")
 
 
 def cuboid(half_axes_m: Floats) -> Polyhedron:

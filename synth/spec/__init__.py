@@ -8,6 +8,7 @@ import msgspec
 from msgspec import Meta, Struct
 
 from synth.errors import InputError
+from synth.spec.complaint import complaint
 from synth.spec.ground import GroundSpec
 from synth.spec.population import PopulationSpec
 from synth.spec.rocks import RocksSpec
@@ -70,4 +71,4 @@ def convert_spec(table: object, *, where: str) -> SceneSpec:
     try:
         return msgspec.convert(table, SceneSpec)
     except msgspec.ValidationError as error:
-        raise InputError(f"{where}: {error}") from error
+        raise InputError(f"{where}: {complaint(str(error), table, SceneSpec)}") from error

@@ -3,7 +3,7 @@
 import pytest
 
 from synth.errors import InputError
-from synth.spec import SceneSpec, load_spec
+from synth.spec import SceneSpec, convert_spec, load_spec
 
 
 def test_empty_file_is_the_default(tmp_path):
@@ -45,6 +45,29 @@ def test_complaints_name_file_and_key(tmp_path, text, key):
         load_spec(path)
     assert str(path) in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        ({"sead": 3}, "sead: expected one of seed, scenes, "),
+        ({"rocks": {"realism": {"chip": 1}}}, "rocks.realism.chip: expected one of cuts, chips, "),
+        ({"rocks": {"family": "cube"}}, "rocks.family: expected one of rounded-polyhedron, "),
+        ({"surface": {"law": 1}}, "surface.law: expected str, found 1"),
+        ({"sensor": {"bits": 10}}, "sensor.bits: expected one of 8, 12, found 10"),
+        ({"rocks": {"albedo": [0.3, 2]}}, "rocks.albedo[1]: expected float <= 1.0, found 2"),
+        ({"rocks": {"count": "3"}}, "rocks.count: expected int, found '3'"),
+        ({"rocks": {"cuts": [9]}}, "rocks.cuts: expected array of length 2, found [9]"),
+        ({"rocks": 3}, "rocks: expected object, found 3"),
+        ({"noise": {"window_px": 8}}, "noise.window_px: expected an odd number, found 8"),
+        ({"sensor": {"jpeg_quality": "a"}}, "sensor.jpeg_quality: expected int | null, found 'a'"),
+        (3, "expected object, found 3"),
+    ],
+)
+def test_complaints_tell_what_was_expected_and_found(table, words):
+    with pytest.raises(InputError) as caught:
+        convert_spec(table, where="spec")
+    assert str(caught.value).startswith(f"spec: {words}")
 
 
 @pytest.mark.parametrize("kind", ["missing", "folder", "binary"])

@@ -1,6 +1,7 @@
 """The least-squares ellipsoid beside scipy's Powell at the same minimum, in one run.
 
-Run `python benchmarks/ellipsoid.py`. Rocks seen from one side with noise, 2,000 points each; warm
+Run `OMP_NUM_THREADS=1 python benchmarks/ellipsoid.py`: it tells processor time, which threads would
+count several times. Rocks seen from one side with noise, 2,000 points each; warm
 medians. `plain` is Powell over the ellipsoid's own distance, as one would write it with scipy;
 `lean` is `rockshape.ellipsoid.powell`, whose cost is stripped to 40 µs. Both have one start and a
 tolerance of 1e-8: at scipy's default of 1e-4 they stop up to some per cent above the minimum.
@@ -46,13 +47,13 @@ def seen_points(count: int, rocks: int, noise_m: float, *, seed: int) -> list[ND
 
 
 def timed(call: Callable[[], T], repeats: int) -> tuple[float, T]:
-    """Median seconds of some runs after a first one, and the result."""
+    """Median processor seconds of some runs after a first one, and the result."""
     result = call()
     seconds = []
     for _ in range(repeats):
-        begun = time.perf_counter()
+        begun = time.process_time()
         result = call()
-        seconds.append(time.perf_counter() - begun)
+        seconds.append(time.process_time() - begun)
     return float(np.median(seconds)), result
 
 

@@ -5,11 +5,14 @@
 A silhouette of the size given, from mask to four numbers, beside cv2.findContours with
 cv2.fitEllipse on the same mask, taken in turns, so that a busy machine slows both; warm medians and
 their ratio to OpenCV's. Then the robust five, the descriptors, scikit-image's regionprops with ten
-properties, and fast_rs where it is installed.
+properties, and of fast_rs, imea and partimorph those that are installed (`pip install
+rockshape[peers]`), once each after a first time; partimorph shrinks what is larger than its limit.
 """
 
 import argparse
+import importlib
 import time
+import warnings
 from collections.abc import Callable
 
 import cv2
@@ -28,10 +31,12 @@ from rockshape.measures import (
 )
 from rockshape.rock_view import RockView
 
-try:
-    import fast_rs.rs as fast_rs
-except ImportError:
-    fast_rs = None
+# module, its function that takes a mask, and of what type
+PEERS = {
+    "fast_rs": ("fast_rs.rs", "rs_calculate", np.bool_),
+    "imea, 53 columns": ("imea", "shape_measurements_2d", np.bool_),
+    "partimorph": ("partimorph", "analyze_mask", np.uint8),
+}
 
 PAPER = (axis_ratio.PAPER, ellipse_error.PAPER, sphericity_2d.PAPER, angularity_2d.PAPER)
 ROBUST = (
@@ -71,12 +76,33 @@ def main() -> None:
             "descriptors": lambda mask=mask: describe(mask),
         }
         slow: dict[str, Callable[[], object]] = {"regionprops, ten": lambda mask=mask: _ten(mask)}
-        if fast_rs is not None:
-            slow["fast_rs"] = lambda mask=mask: fast_rs.rs_calculate(mask)
         medians = _medians_ms(quick, args.rounds) | _medians_ms(slow, 5)
+        for name, peer in _peers().items():
+            medians |= _medians_ms({name: lambda mask=mask, peer=peer: peer(mask)}, 1)
         floor = medians["cv2.findContours + cv2.fitEllipse"]
         for name, median in medians.items():
             print(f"  {name:34s} {median:9.3f} ms   {median / floor:8.2f}")
+
+
+def _peers() -> dict[str, Callable[[NDArray[np.bool_]], object]]:
+    found = {}
+    for name, (module, function, kind) in PEERS.items():
+        try:
+            found[name] = _quietly(getattr(importlib.import_module(module), function), kind)
+        except ImportError:
+            continue
+    return found
+
+
+def _quietly(function: Callable[[object], object], kind: type) -> Callable[[object], object]:
+    """The function of masks of a type, without its warnings."""
+
+    def call(mask: NDArray[np.bool_]) -> object:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return function(mask.astype(kind))
+
+    return call
 
 
 def _opencv(mask: NDArray[np.bool_]) -> object:

@@ -36,6 +36,9 @@ class Rock:
     readings: dict[str, Reading]  # by the measures' columns
     descriptors: Descriptors | None = None  # if they were asked for
 
+    def __post_init__(self) -> None:
+        _freeze(self, "outline_px")
+
     @property
     def values(self) -> dict[str, float]:
         """The value of each measure by its column, NaN where it has none."""
@@ -59,8 +62,18 @@ class Measurement:
     found: "tuple[Found, ...]" = ()  # how each was found, likewise; empty with given labels
     described: bool = False  # whether the rocks have descriptors
 
+    def __post_init__(self) -> None:
+        _freeze(self, "labels")
+
     def to_frame(self) -> "pd.DataFrame":
         """The table, one row a rock; its columns are those of `rockshape.table.columns`."""
         from rockshape.table import to_frame  # noqa: PLC0415 - pandas takes as long as all else
 
         return to_frame(self)
+
+
+def _freeze(record: Rock | Measurement, name: str) -> None:
+    """Have a record hold an array that cannot be written to; the one it was made of still can."""
+    view = getattr(record, name).view()
+    view.setflags(write=False)
+    object.__setattr__(record, name, view)

@@ -133,6 +133,6 @@ def fit_surface(
         size_m=(u_size, w_size),
         smoothing_m=length,
         residual_m=float(np.sqrt(np.mean(misfit**2))),
-        second_uu_per_m=rows(net, second_u, along_w).at(vertices) / u_size**2,
-        second_ww_per_m=rows(net, along_u, second_w).at(vertices) / w_size**2,
+        second_uu_per_m=data.like(second_u, along_w).at(vertices) / u_size**2,
+        second_ww_per_m=data.like(along_u, second_w).at(vertices) / w_size**2,
     )

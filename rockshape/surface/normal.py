@@ -1,7 +1,7 @@
 """The normal equations of a B-spline surface in banded form."""
 
-from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,28 +42,34 @@ class Rows:
     products: NDArray[np.float64]  # (n, orders' product)
     first: NDArray[np.intp]  # (n,), number of the first vertex
     offsets: NDArray[np.intp]  # (orders' product,)
+    places: NDArray[np.intp]  # (n, orders' product), their sum
 
     def at(self, vertices: NDArray[np.float64]) -> NDArray[np.float64]:
         """C B, (n,) or (n, k) for vertices (size,) or (size, k)."""
         here = vertices.T.take(self.places, axis=-1)
         return np.asarray(np.einsum("ij,...ij->i...", self.products, here))
 
-    @cached_property
-    def places(self) -> NDArray[np.intp]:
-        """Numbers (n, orders' product) of the vertices that each datum touches."""
-        return self.first[:, None] + self.offsets
+    def like(self, along_u: Basis, along_w: Basis) -> "Rows":
+        """The rows for other bases of the same data, derivatives for instance."""
+        return replace(self, products=_products(along_u, along_w))
 
 
 def rows(net: Net, along_u: Basis, along_w: Basis) -> Rows:
     """The rows of C for data with these bases along u and w."""
-    products = along_u.values[:, None, :] * along_w.values[None, :, :]
-    wide = np.arange(net.u.order)[:, None] * net.w.count + np.arange(net.w.order)
+    offsets = (np.arange(net.u.order)[:, None] * net.w.count + np.arange(net.w.order)).ravel()
+    first = along_u.span * net.w.count + along_w.span
     return Rows(
         net=net,
-        products=np.ascontiguousarray(products.reshape(wide.size, -1).T),
-        first=along_u.span * net.w.count + along_w.span,
-        offsets=wide.ravel(),
+        products=_products(along_u, along_w),
+        first=first,
+        offsets=offsets,
+        places=first[:, None] + offsets,
     )
+
+
+def _products(along_u: Basis, along_w: Basis) -> NDArray[np.float64]:
+    products = along_u.values[:, None, :] * along_w.values[None, :, :]
+    return np.ascontiguousarray(products.reshape(-1, products.shape[2]).T)
 
 
 def normal_equations(

@@ -108,7 +108,7 @@ def _bends(
     if factor is None:
         return None
     vertices = factor.solve(side)
-    bend_u = rows(NET, evaluate(NET.u, u, derivative=2), along_w).products / size[0] ** 2
-    bend_w = rows(NET, along_u, evaluate(NET.w, w, derivative=2)).products / size[1] ** 2
+    bend_u = data.like(evaluate(NET.u, u, derivative=2), along_w).products / size[0] ** 2
+    bend_w = data.like(along_u, evaluate(NET.w, w, derivative=2)).products / size[1] ** 2
     bend = replace(data, products=(bend_u + bend_w) / 2)
     return bend.at(vertices), heights[:, 0] - data.at(vertices[:, 0])

@@ -1,5 +1,6 @@
 """`rockshape.measure`: what people with arrays call."""
 
+import dataclasses
 import subprocess
 import sys
 
@@ -113,6 +114,18 @@ def test_arrays_that_do_not_fit_are_refused(arguments: dict, says: str) -> None:
     with pytest.raises(rockshape.InputError) as refusal:
         rockshape.measure(**arguments)
     assert says in str(refusal.value)
+
+
+def test_records_and_their_arrays_are_frozen() -> None:
+    found = rockshape.measure(labels=DISC)
+    rock = found.rocks[0]
+    for array in (found.labels, rock.outline_px):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1
+    for record, name in ((found, "labels"), (rock, "outline_px"), (rock.ellipse, "x")):
+        with pytest.raises(dataclasses.FrozenInstanceError):
+            setattr(record, name, None)
+    assert DISC.flags.writeable
 
 
 def test_importing_rockshape_loads_none_of_what_it_may_need_later() -> None:

@@ -381,7 +381,7 @@ def test_a_file_the_system_refuses_is_one_line(
 def test_a_full_disk_names_the_file_and_leaves_nothing(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def full(draft: Path, mode: int) -> None:
+    def full(draft: Path, _: int) -> None:
         raise OSError(28, "No space left on device", str(draft))
 
     monkeypatch.setattr(Path, "chmod", full)

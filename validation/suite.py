@@ -12,6 +12,7 @@ from rockshape.measures import METHODS
 from synth.spec import SceneSpec
 from validation.errors import InputError
 from validation.gates import Gate, GateFile
+from validation.inherit import resolve_likes
 from validation.measures import MeasureSpec, Name, Text
 
 Seed = Annotated[int, Meta(ge=0, lt=2**32)]
@@ -165,7 +166,7 @@ _T = TypeVar("_T")
 
 def _convert(text: str, kind: type[_T], *, where: str) -> _T:
     try:
-        return msgspec.convert(tomllib.loads(text), kind)
+        return msgspec.convert(resolve_likes(tomllib.loads(text), where=where), kind)
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"{where}: expected TOML, found {error}") from error
     except msgspec.ValidationError as error:

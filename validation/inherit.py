@@ -26,7 +26,7 @@ def resolve_likes(table: Table, *, where: str) -> Table:
             return table
         whole = own
         if "like" in own:
-            if own["like"] not in before:
+            if not isinstance(own["like"], str) or own["like"] not in before:
                 raise InputError(
                     f"{where}: like: expected the name of an experiment that stands before, "
                     f"found {own['like']!r}"

@@ -15,6 +15,7 @@ from synth.spec.limits import Degrees
 from synth.spec.view import SunSpec
 from validation.errors import InputError
 from validation.gates import Gate, GateFile
+from validation.inherit import resolve_likes
 from validation.measures import MeasureSpec, Name, Text
 from validation.sweep import Sweep
 
@@ -231,7 +232,7 @@ _T = TypeVar("_T")
 
 def _convert(text: str, kind: type[_T], *, where: str) -> _T:
     try:
-        return msgspec.convert(tomllib.loads(text), kind)
+        return msgspec.convert(resolve_likes(tomllib.loads(text), where=where), kind)
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"{where}: expected TOML, found {error}") from error
     except msgspec.ValidationError as error:

@@ -1,4 +1,4 @@
-"""Images and label images: PNG, JPEG and TIFF of 8 or 16 bits, grey or colour."""
+"""Images and label images: PNG, JPEG and TIFF of 8 or 16 bits, grey or colour; labels also NPY."""
 
 import io
 import warnings
@@ -14,7 +14,7 @@ from rockshape.grey import to_grey
 from rockshape.io.files import check_writable, read_bytes, write_bytes
 
 IMAGE = "an image (PNG, JPEG or TIFF)"
-LABELS = "a label image (PNG or TIFF of whole numbers, 0 the background)"
+LABELS = "a label image (PNG, TIFF or NPY of whole numbers, 0 the background)"
 PICTURES = (".png", ".jpg", ".jpeg", ".tif", ".tiff")
 LABEL_IMAGES = (".png", ".tif", ".tiff")  # those that hold 16 bits and lose nothing
 LARGEST_LABEL = 2**31 - 1
@@ -39,7 +39,7 @@ def read_labels(path: Path | str, *, shape: tuple[int, ...]) -> NDArray[np.int32
     Raises InputError where the file is no such image.
     """
     path = Path(path)
-    labels = decode(path, what=LABELS)
+    labels = _array(path) if path.suffix.lower() == ".npy" else decode(path, what=LABELS)
     if labels.ndim != 2 or not np.issubdtype(labels.dtype, np.integer):
         raise InputError(
             f"{path}: expected {LABELS}, found {labels.ndim} dimensions of {labels.dtype}"
@@ -49,6 +49,17 @@ def read_labels(path: Path | str, *, shape: tuple[int, ...]) -> NDArray[np.int32
     if labels.min() < 0 or labels.max() > LARGEST_LABEL:
         raise InputError(f"{path}: expected {LABELS}, found {labels.min()} to {labels.max()}")
     return labels.astype(np.int32)
+
+
+def _array(path: Path) -> NDArray[np.generic]:
+    """The array of an .npy file; objects in it are never loaded."""
+    try:
+        array = np.load(io.BytesIO(read_bytes(path, what=LABELS)), allow_pickle=False)
+    except (ValueError, EOFError, OSError) as error:
+        raise InputError(f"{path}: expected {LABELS}, found {error or 'no array'}") from None
+    if not isinstance(array, np.ndarray):  # an .npz under another name
+        raise InputError(f"{path}: expected {LABELS}, found several arrays")
+    return array
 
 
 def write_image(path: Path | str, pixels: NDArray[np.uint8] | NDArray[np.uint16]) -> None:

@@ -5,18 +5,13 @@ from numpy.typing import NDArray
 
 from rockshape.segmentation.fill import Window, inside_of
 from rockshape.segmentation.lightness import read_lightness
+from rockshape.segmentation.likely import features_of, likelihood
 from rockshape.segmentation.relief import Relief
-from rockshape.segmentation.stars import FEWEST_PIXELS, propose
+from rockshape.segmentation.seeds import FEWEST_PIXELS
+from rockshape.segmentation.stars import propose
 
 Labels = NDArray[np.int32]
-Floats = NDArray[np.float64]
 
-# Expected intersection over union with a true rock, by least squares on made scenes: linear in the
-# eight features, then squares of the logarithm of area, the share unlike the ground and the edge.
-WEIGHTS = np.array(
-    [0.1502, 0.0463, 0.2916, 1.8802, -0.0051, -1.7755, -0.4583, 0.3462, -0.0162, -1.1245, -0.0168]
-)
-OFFSET = -2.1710
 GOOD_ENOUGH = 0.4
 MOST_SHARED = 0.25  # of an outline may be another's already
 SWALLOWED = 0.5  # of a better one within an outline: it is two rocks, not one
@@ -32,16 +27,17 @@ def find_by_image(image: NDArray[np.float32], relief: Relief | None, by_range: L
     already or it swallows another. Where range is good enough to show a rock of that width and is
     flat, there is none.
     """
-    stars = propose(read_lightness(image), taken=by_range > 0)
     labels = by_range.copy()
-    if stars is None:
+    parts = propose(read_lightness(image), taken=by_range > 0)
+    if not parts:
         return labels
-    value = likelihood(stars.features)
+    x, y = (np.concatenate([getattr(part, axis) for part in parts]) for axis in ("x", "y"))
+    value = likelihood(np.concatenate([features_of(part) for part in parts]))
     area = np.bincount(labels.ravel()).astype(np.int64).tolist()
     for number in np.argsort(-value, kind="stable"):
         if value[number] < GOOD_ENOUGH:
             break
-        window, mask = inside_of(stars.x[number], stars.y[number], labels.shape)
+        window, mask = inside_of(x[number], y[number], labels.shape)
         pixels = int(mask.sum())
         if pixels < FEWEST_PIXELS:
             continue
@@ -58,12 +54,6 @@ def find_by_image(image: NDArray[np.float32], relief: Relief | None, by_range: L
         part[mask & (part == 0)] = len(area)
         area.append(free)
     return labels
-
-
-def likelihood(features: Floats) -> Floats:
-    """The intersection over union that an outline of such features (n, 8) is likely to have."""
-    squares = features[:, [7, 3, 0]] ** 2
-    return np.asarray(np.column_stack([features, squares]) @ WEIGHTS + OFFSET)
 
 
 def _is_flat(relief: Relief, window: Window, mask: NDArray[np.bool_]) -> bool:

@@ -82,7 +82,7 @@ def run_scene(
             place = Place(experiment.name, "segmentation", series, scene, spec.seed, view, "")
             records.append(_rows(place, truth, counts, made, exact_m=exact, experiment=experiment))
             if scene < experiment.pictured and view == 0:
-                shown = _draw(image, truth.labels, made.labels)
+                shown = draw(image, truth.labels, made.labels)
                 pictures.append(Picture(place, *compress(shown, np.ones_like(truth.labels))))
     return pd.concat(records, ignore_index=True), tuple(pictures), backend
 
@@ -174,7 +174,7 @@ def _depths_m(exact_m: Floats, labels: Labels) -> Floats:
     return np.where(pixels > 0, total / np.maximum(pixels, 1), np.nan)
 
 
-def _draw(image: NDArray[np.float32], truth: Labels, found: Labels) -> NDArray[np.uint8]:
+def draw(image: NDArray[np.float32], truth: Labels, found: Labels) -> NDArray[np.uint8]:
     """The image in grey with the true borders in blue and the found ones in yellow over them."""
     grey = np.clip(np.rint(image * 255), 0, 255).astype(np.uint8)
     canvas = np.repeat(grey[..., None], 3, axis=2)

@@ -81,6 +81,32 @@ def test_labels_keep_their_values(tmp_path: Path, kind: str) -> None:
     assert np.array_equal(read_labels(path, shape=(2, 2)), labels)
 
 
+@pytest.mark.parametrize("kind", ["uint8", "int64", ">i4"])
+def test_labels_are_read_from_an_array(tmp_path: Path, kind: str) -> None:
+    labels = np.array([[0, 3], [70, 0]], dtype=kind)
+    np.save(tmp_path / "labels.npy", labels)
+    found = read_labels(tmp_path / "labels.npy", shape=(2, 2))
+    assert found.dtype == np.int32
+    assert np.array_equal(found, labels)
+
+
+def test_arrays_that_are_no_labels_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "labels.npy"
+    objects = np.array([[None, {}]])
+    for spoilt in (np.zeros((2, 2)), np.zeros((2, 2, 3), int), np.zeros((3, 2), int), objects):
+        np.save(path, spoilt)
+        with pytest.raises(InputError, match="expected"):
+            read_labels(path, shape=(2, 2))
+    for data in (b"", b"no array", path.read_bytes()[:40]):
+        path.write_bytes(data)
+        with pytest.raises(InputError, match="a label image"):
+            read_labels(path, shape=(2, 2))
+    with path.open("wb") as file:
+        np.savez(file, one=np.zeros((2, 2), int))
+    with pytest.raises(InputError, match="several arrays"):
+        read_labels(path, shape=(2, 2))
+
+
 def test_negative_labels_are_refused(tmp_path: Path) -> None:
     path = tmp_path / "labels.tif"
     tifffile.imwrite(path, np.array([[0, -3]], dtype=np.int32))

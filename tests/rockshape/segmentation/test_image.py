@@ -5,8 +5,12 @@ import numpy as np
 
 from rockshape.observation import Observation
 from rockshape.segmentation import segment
+from rockshape.segmentation.fill import inside_of
 from rockshape.segmentation.lightness import read_lightness
+from rockshape.segmentation.likely import features_of, likelihood
+from rockshape.segmentation.seeds import find_seeds
 from rockshape.segmentation.snap import paint, snap
+from rockshape.segmentation.stars import Stars, propose
 from tests import solids
 
 
@@ -88,3 +92,56 @@ def test_an_outline_on_the_edge_is_left_alone() -> None:
 
 def test_no_labels_have_no_outlines() -> None:
     assert snap(np.full((40, 40), 0.5, np.float32), np.zeros((40, 40), np.int32), texture=1.0) == {}
+
+
+def with_disc(
+    image: np.ndarray, bare: np.ndarray, place: tuple[int, int, int], brightness: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """The image with a disc (x, y, radius) before all else, and the disc's mask.
+
+    Its texture is that of the bare ground.
+    """
+    rows, cols = np.mgrid[: image.shape[0], : image.shape[1]]
+    disc = np.hypot(cols - place[0], rows - place[1]) <= place[2]
+    return np.where(disc, brightness * bare / 0.6, image), disc
+
+
+def overlaps(part: Stars, mask: np.ndarray) -> list[float]:
+    """Intersection over union of each outline proposed with a mask."""
+    found = []
+    for x, y in zip(part.x, part.y, strict=True):
+        window, inside = inside_of(x, y, mask.shape)
+        common = mask[window][inside].sum()
+        found.append(float(common / (mask.sum() + inside.sum() - common)))
+    return found
+
+
+def test_of_two_rocks_that_touch_each_has_an_outline_proposed(rng: np.random.Generator) -> None:
+    bare = textured((240, 320), rng)
+    behind, far = with_disc(bare, bare, (140, 105, 34), 0.42)
+    image, near = with_disc(behind, bare, (185, 130, 30), 0.9)
+    lightness = read_lightness(np.clip(image, 0, 1).astype(np.float32))
+    (part,) = propose(lightness, taken=np.zeros(near.shape, dtype=bool))
+    for mask in (near, far & ~near):
+        assert max(overlaps(part, mask)) > 0.8
+
+
+def test_seeds_on_what_is_taken_are_left_out(rng: np.random.Generator) -> None:
+    bare = textured((240, 320), rng)
+    image, disc = with_disc(bare, bare, (150, 120, 34), 0.4)
+    lightness = read_lightness(image.astype(np.float32))
+    none = np.zeros(disc.shape, dtype=bool)
+    seeds = find_seeds(lightness, taken=none)
+    assert len(seeds) > 0
+    assert set(seeds[:, 3]) == {0, 1}  # wholes and facets
+    assert len(find_seeds(lightness, taken=disc)) < len(seeds) / 2
+    assert len(find_seeds(lightness, taken=~none)) == 0
+
+
+def test_the_likeliest_outline_is_the_rocks(rng: np.random.Generator) -> None:
+    bare = textured((240, 320), rng)
+    image, disc = with_disc(bare, bare, (150, 120, 34), 0.4)
+    lightness = read_lightness(image.astype(np.float32))
+    (part,) = propose(lightness, taken=np.zeros(disc.shape, dtype=bool))
+    value = likelihood(features_of(part))
+    assert overlaps(part, disc)[value.argmax()] > 0.8

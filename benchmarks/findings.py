@@ -116,6 +116,18 @@ def print_tables(scores: dict[str, dict[str, Any]]) -> None:
         print(f"| {method} | `{column}` | " + " | ".join(row) + " |")
 
 
+def print_clean(scores: dict[str, dict[str, Any]]) -> None:
+    """Print what moves the clean values: their three parts over the sum of these."""
+    causes = ("view", "distance", "rest")
+    print("\n| method | measure | " + " | ".join(NAMES[c] for c in causes) + " |")
+    print("|" + " --- |" * (2 + len(causes)))
+    for method, column, start in columns():
+        shares = [scores[f"{start}share_{cause}"]["value"] for cause in causes]
+        if None not in shares:
+            texts = [f"{100.0 * share / sum(shares):.0f}".replace("-", "−") for share in shares]
+            print(f"| {method} | `{column}` | " + " | ".join(texts) + " |")
+
+
 def draw(scores: dict[str, dict[str, Any]], path: Path) -> None:
     """Draw each measure's variance as a stacked bar; what is negative goes to the left."""
     mpl.rcParams["hatch.linewidth"] = 0.6
@@ -164,6 +176,7 @@ def main() -> None:
     args = parser.parse_args()
     scores = scores_of(args.run)
     print_tables(scores)
+    print_clean(scores)
     if args.plot:
         draw(scores, args.plot)
 

@@ -30,7 +30,7 @@ Floats = NDArray[np.float64]
 Compute = Callable[[Cubes], Estimate]
 
 TITLES = {
-    "view": "the view itself",
+    "view": "the view",
     "distance": "distance",
     "light": "light",
     "noise": "range noise",
@@ -153,7 +153,7 @@ _STATISTICS: tuple[tuple[str, str, str, str, Better, Compute], ...] = (
      "lower", _cv),
     ("cv_clean", "the same with true masks and exact range", "1", "rocks", "lower", _cv_clean),
     *(
-        (f"share_{cause}", f"share of that variance by {TITLES[cause]}", "share", "rocks",
+        (f"share_{cause}", f"share of a rock's variance by {TITLES[cause]}", "share", "rocks",
          "neither", _share(cause))
         for cause in CAUSES
     ),

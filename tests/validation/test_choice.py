@@ -126,7 +126,7 @@ def test_a_large_run_still_fits_the_page(suite, run) -> None:
     )
     assert 1_000_000 < len(html.encode()) <= MAX_BYTES
     assert "of 900 rocks, a row for each view: those of the pictured scenes" in html
-    assert "Shades: all 3600 points" in html
+    assert "of 3600 points are marked" in html
 
 
 def test_an_outline_becomes_a_path_of_steps() -> None:

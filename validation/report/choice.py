@@ -90,6 +90,8 @@ def outliers(run: Run) -> list[RockKey]:
 def _candidates(run: Run) -> Iterator[RockKey]:
     """Yield the rocks of the pictured scenes, then what is farthest off, then all others."""
     measured = _measured(run)
+    if measured.empty:
+        return
     shown = measured["scene"] < measured["experiment"].map(_pictured(run))
     yield from keys_of(measured[shown])
     yield from outliers(run)

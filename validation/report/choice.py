@@ -61,9 +61,19 @@ def _pictured(run: Run) -> dict[str, int]:
     }
 
 
+def _measured(run: Run) -> pd.DataFrame:
+    """Return the records of rocks and shapes.
+
+    What is no true rock counts once: measures from elsewhere stand on the first method's masks.
+    """
+    records = run.records
+    again = records["status"].eq("extra") & ~records["method"].isin(list(METHODS))
+    return records[~again & records["kind"].ne("segmentation")]
+
+
 def outliers(run: Run) -> list[RockKey]:
     """Return what is wrong first: missed and taken for rocks, then the farthest of each claim."""
-    measured = run.records[run.records["kind"] != "segmentation"]
+    measured = _measured(run)
     missed = measured[measured["status"].eq("missed") & measured["eligible"].astype(bool)]
     lists = [
         keys_of(missed.head(FARTHEST)),
@@ -79,7 +89,9 @@ def outliers(run: Run) -> list[RockKey]:
 
 def _candidates(run: Run) -> Iterator[RockKey]:
     """Yield the rocks of the pictured scenes, then what is farthest off, then all others."""
-    measured = run.records[run.records["kind"] != "segmentation"]
+    measured = _measured(run)
+    if measured.empty:
+        return
     shown = measured["scene"] < measured["experiment"].map(_pictured(run))
     yield from keys_of(measured[shown])
     yield from outliers(run)

@@ -109,6 +109,7 @@
     history.replaceState(null, "", `#${id}`);
     if (!dialog.open) dialog.showModal();
     dialog.scrollTop = 0;
+    rock.querySelector("th.here")?.scrollIntoView({ block: "nearest", inline: "nearest" });
   }
 
   function say(words) {

@@ -37,6 +37,11 @@ class Plot:
     points: int
     drawn: int
 
+    @property
+    def shaded(self) -> bool:
+        """Whether only some of the points are marked."""
+        return self.drawn < self.points
+
 
 def tau_name(claim: Claim) -> str:
     """Return the name of the score that holds a claim's order."""

@@ -1,9 +1,11 @@
-"""Print, for every family with a truth of its own, how near meshes and pictures come to it."""
+"""Print, for every family, how near meshes and pictures come to its truth."""
 
 import argparse
+from pathlib import Path
 
 import cv2
 import numpy as np
+import trimesh
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 from scipy.optimize import linprog
@@ -23,6 +25,8 @@ from synth.spec.rocks import RocksSpec
 from synth.truth import half_axes_of_covariance_m
 
 FAMILIES = ("rounded-polyhedron", "rounded-box", "ellipsoid", "superellipsoid")
+ROUGH = ("perturbed", "realistic", "scan")  # whose mesh is the body
+SCANS = sorted((Path(__file__).parent.parent / "examples" / "rocks").glob("*.ply"))
 ACROSS = plane_across(np.array([0.35, -0.55, 0.76]))
 HALVINGS = 2  # of the datasets' facets' edges in the refined mesh
 EDGE_SPLIT = 16  # the picture's edge pixels are split into so many squared
@@ -74,8 +78,27 @@ def outline_errors(rock: Rock, mesh: Mesh, count: int) -> dict[str, float]:
     return {name: abs(value - 1.0) for name, value in found.items()}
 
 
+def rough_errors(rock: Rock, count: int) -> dict[str, float]:
+    """Return how far trimesh's solid and a picture are from the truth of a body that its mesh is.
+
+    trimesh gives the moments of inertia I about the axes; the covariance is (tr I/2 − I)/V.
+    """
+    solid = trimesh.Trimesh(rock.mesh.vertices_m, rock.mesh.faces, process=False)
+    inertia = np.asarray(solid.moment_inertia)
+    covariance_m2 = (np.trace(inertia) / 2.0 * np.eye(3) - inertia) / solid.volume
+    half_axes_m = np.sqrt(5.0 * np.linalg.eigvalsh(covariance_m2)[::-1])
+    flat = mesh_form(rock.mesh).outline(ACROSS)
+    area, _, ratio, _ = pictured(rock.mesh, count)
+    return {
+        "V": abs(solid.volume / rock.truth.volume_m3 - 1.0),
+        "inertia": float(np.abs(half_axes_m / rock.truth.half_axes_inertia_m - 1.0).max()),
+        "A picture": abs(area / flat.area_m2 - 1.0),
+        "axis ratio picture": abs(ratio / flat.axis_ratio - 1.0),
+    }
+
+
 def pictured(mesh: Mesh, count: int) -> tuple[float, float, float, float]:
-    """Return area, perimeter, axis ratio and inscribed radius of a convex body's picture.
+    """Return area, its hull's perimeter, axis ratio and its hull's inner radius of a picture.
 
     Parallel rays through the centres of count × count pixels; those at the edge are split. The
     perimeter is π times the mean width over all directions (Cauchy).
@@ -176,7 +199,16 @@ def main() -> None:
     table(solids)
     print(f"\nOutlines, on the mesh with edges/{2**HALVINGS}:\n")
     table(outlines)
-    print("\nThe same outline in perspective, over the parallel one:\n")
+    print("\nBodies known by their meshes, against trimesh and the picture:\n")
+    rough = {}
+    for family in ROUGH:
+        spec = RocksSpec(
+            count=arguments.rocks, family=family, series="random", scans=tuple(map(str, SCANS))
+        )
+        rocks = quarry(spec, rng=np.random.default_rng(7))
+        rough[family] = [rough_errors(rock, arguments.pixels) for rock in rocks]
+    table(rough)
+    print("\nA polyhedron's outline in perspective, over the parallel one:\n")
     perspective()
 
 

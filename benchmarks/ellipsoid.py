@@ -8,21 +8,17 @@ tolerance of 1e-8: at scipy's default of 1e-4 they stop up to some per cent abov
 """
 
 import argparse
-import time
-from collections.abc import Callable
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 from scipy.spatial.transform import Rotation
+from warm import timed
 
 from rockshape.ellipsoid import Ellipsoid, fit_ellipsoid
 from rockshape.ellipsoid.powell import fit_by_powell
 from synth.rocks import quarry
 from synth.spec.rocks import RocksSpec
-
-T = TypeVar("T")
 
 CENTRE_M = np.array([0.3, 0.2, 4.0])
 SAME = 1e-6  # relative difference of D_S at which two searches have found the same minimum
@@ -44,17 +40,6 @@ def seen_points(count: int, rocks: int, noise_m: float, *, seed: int) -> list[ND
         points[:, 2] += rng.normal(scale=noise_m, size=count)
         clouds.append(points)
     return clouds
-
-
-def timed(call: Callable[[], T], repeats: int) -> tuple[float, T]:
-    """Median processor seconds of some runs after a first one, and the result."""
-    result = call()
-    seconds = []
-    for _ in range(repeats):
-        begun = time.process_time()
-        result = call()
-        seconds.append(time.process_time() - begun)
-    return float(np.median(seconds)), result
 
 
 def plain_powell(points: NDArray[np.float64]) -> tuple[float, int]:

@@ -7,13 +7,12 @@ their own knots until the residual is the one asked for: they are asked for ours
 """
 
 import argparse
-import time
 import warnings
-from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import LSQBivariateSpline, SmoothBivariateSpline, bisplev, bisplrep
+from warm import timed
 
 from rockshape.surface import Knots, Net, Patch, fit_surface
 from rockshape.surface.basis import evaluate
@@ -39,17 +38,6 @@ def dense(patch: Patch, net: Net) -> NDArray[np.float64]:
     return np.asarray(np.linalg.lstsq(matrix, patch.height_m, rcond=None)[0])
 
 
-def timed(call: Callable[[], object], repeats: int) -> tuple[float, object]:
-    """Median processor seconds of some runs after a first one, and the result."""
-    result = call()
-    seconds = []
-    for _ in range(repeats):
-        begun = time.process_time()
-        result = call()
-        seconds.append(time.process_time() - begun)
-    return float(np.median(seconds)), result
-
-
 def main() -> None:
     """Print a row for each way."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -67,10 +55,10 @@ def main() -> None:
         return float(np.sqrt(np.mean((np.asarray(values) - z) ** 2)))
 
     ours_s, surface = timed(lambda: fit_surface(patch, net=net, smoothing=0), 9)
-    ours = surface.residual_m  # type: ignore[attr-defined]
+    ours = surface.residual_m
     gcv_s, smoothed = timed(lambda: fit_surface(patch, net=net, smoothing="gcv"), 3)
     dense_s, vertices = timed(lambda: dense(patch, net), 1)
-    off = np.abs(vertices - surface.vertices_m.ravel()).max()  # type: ignore[attr-defined]
+    off = np.abs(vertices - surface.vertices_m.ravel()).max()
     inner = 0.4 * np.linspace(0, 1, net.u.spans + 1)[1:-1]
     target = ours**2 * len(u) * 1.02  # a little more, or it adds knots without end
     with warnings.catch_warnings():
@@ -81,10 +69,10 @@ def main() -> None:
     at = [bisplev(x, y, rep) for x, y in zip(u[:2000], w[:2000], strict=True)]
     rows = [
         ("ours, equation 15, with second derivatives", ours_s, ours),
-        ("ours, smoothing by GCV", gcv_s, smoothed.residual_m),  # type: ignore[attr-defined]
+        ("ours, smoothing by GCV", gcv_s, smoothed.residual_m),
         ("dense least squares (numpy)", dense_s, ours),
-        ("LSQBivariateSpline, our knots", lsq_s, rms(lsq.ev(u, w))),  # type: ignore[attr-defined]
-        ("SmoothBivariateSpline", smooth_s, rms(smooth.ev(u, w))),  # type: ignore[attr-defined]
+        ("LSQBivariateSpline, our knots", lsq_s, rms(lsq.ev(u, w))),
+        ("SmoothBivariateSpline", smooth_s, rms(smooth.ev(u, w))),
         ("bisplrep", rep_s, float(np.sqrt(np.mean((np.array(at) - z[:2000]) ** 2)))),
     ]
     print("| way | ms | RMS residual mm | over ours |")

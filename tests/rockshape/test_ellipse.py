@@ -12,6 +12,17 @@ from rockshape.outline import trace_outline
 from rockshape.outline_edge import trace_edge
 from tests import solids
 
+undetermined = pytest.mark.parametrize(
+    "points",
+    [
+        np.empty((0, 2)),
+        np.zeros((9, 2)),
+        np.column_stack([np.arange(9.0), 2 * np.arange(9.0)]),
+        solids.circle(3, points=5),
+    ],
+    ids=["none", "one place", "a line", "five points"],
+)
+
 
 def on_ellipse(ellipse: Ellipse, turns: np.ndarray) -> np.ndarray:
     u, v = ellipse.major * np.cos(turns), ellipse.minor * np.sin(turns)
@@ -78,16 +89,7 @@ def test_radial_distance_exceeds_the_orthogonal_within_its_bound(
     assert np.all(radial <= orthogonal * bound * 1.01)  # the bound holds for small distances
 
 
-@pytest.mark.parametrize(
-    "points",
-    [
-        np.empty((0, 2)),
-        np.zeros((9, 2)),
-        np.column_stack([np.arange(9.0), 2 * np.arange(9.0)]),
-        solids.circle(3, points=5),
-    ],
-    ids=["none", "one place", "a line", "five points"],
-)
+@undetermined
 def test_no_ellipse_where_none_is_determined(points: np.ndarray) -> None:
     assert fit_ellipse(points) is None
 
@@ -154,16 +156,7 @@ def test_noise_flattens_an_arcs_direct_fit_and_not_the_other(rng: np.random.Gene
     assert np.std(hyper) < 0.5 * np.std(direct)
 
 
-@pytest.mark.parametrize(
-    "points",
-    [
-        np.empty((0, 2)),
-        np.zeros((9, 2)),
-        np.column_stack([np.arange(9.0), 2 * np.arange(9.0)]),
-        solids.circle(3, points=5),
-    ],
-    ids=["none", "one place", "a line", "five points"],
-)
+@undetermined
 def test_no_arc_where_none_is_determined(points: np.ndarray) -> None:
     assert fit_arc(points) is None
 

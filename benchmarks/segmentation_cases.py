@@ -21,9 +21,10 @@ from rockshape.observation import Observation
 from rockshape.segmentation import segment
 from synth.dataset import write_common, write_scene
 from synth.render import choose_backend
+from validation.experiments import SegmentationExperiment
 from validation.scores.segmentation import f1
 from validation.segments.unit import draw
-from validation.suite import SegmentationExperiment, load_suite
+from validation.suite import load_suite
 from validation.truth import read_instances
 
 SERIES = ("robust-exact", "robust-stereo", "robust-sgm", "robust-none")

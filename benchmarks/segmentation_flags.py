@@ -17,7 +17,8 @@ from rockshape.observation import Observation
 from rockshape.pipeline import measure
 from synth.dataset import write_common, write_scene
 from synth.render import choose_backend
-from validation.suite import SegmentationExperiment, load_suite
+from validation.experiments import SegmentationExperiment
+from validation.suite import load_suite
 from validation.truth import read_instances
 
 SEEDS = {"sparse": 50_000, "crowded": 50_100, "slope": 50_300}

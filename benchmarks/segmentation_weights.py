@@ -24,7 +24,8 @@ from rockshape.segmentation.likely import features_of
 from rockshape.segmentation.stars import propose
 from synth.dataset import write_scene
 from synth.render import choose_backend
-from validation.suite import SegmentationExperiment, load_suite
+from validation.experiments import SegmentationExperiment
+from validation.suite import load_suite
 from validation.truth import read_instances
 
 Floats = NDArray[np.float64]

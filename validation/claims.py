@@ -7,15 +7,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from rockshape.measures import METHODS
-from validation.measures import Trait
-from validation.suite import (
+from validation.experiments import (
     DesignExperiment,
     Experiment,
     SegmentationExperiment,
     ShapesExperiment,
-    Suite,
     YardExperiment,
 )
+from validation.measures import Trait
+from validation.suite import Suite
 
 # What the columns rise with. A measure of the package without a line here is not judged.
 RISES_WITH: dict[str, Trait] = {

@@ -10,6 +10,8 @@ from importlib.resources.abc import Traversable
 _PACKAGES = ("rockshape", "synth")
 _OWN = (
     "units.py",
+    "views.py",
+    "work.py",
     "records.py",
     "match.py",
     "truth.py",

@@ -9,7 +9,8 @@ import cv2
 from validation.code import code_digest
 from validation.errors import WorkerError
 from validation.store import UnitStore, code_of, pack
-from validation.units import Unit, describe, run_unit
+from validation.units import Unit, describe
+from validation.work import run_unit
 
 WINDOW = 1024  # units submitted at a time: neither futures nor results pile up
 _ONE_AT_A_TIME = threading.Lock()  # OpenGL belongs to one thread of a process

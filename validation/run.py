@@ -11,11 +11,12 @@ import pandas as pd
 from synth.render import choose_backend
 from validation.checks import Check, self_checks
 from validation.dispatch import OnDone, dispatch
+from validation.experiments import Experiment, ShapesExperiment
 from validation.gates import Found, Gate, GateResult, evaluate
 from validation.pictures import Album, Picture
 from validation.scores import Score, score_records
 from validation.store import StoredPicture, StoredResult, UnitStore, unit_key
-from validation.suite import Experiment, ShapesExperiment, Suite
+from validation.suite import Suite
 from validation.units import UnitResult, units_of
 
 AnyPicture = Picture | StoredPicture

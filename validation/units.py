@@ -1,45 +1,19 @@
-"""Work units: one scene or one drawing made, measured and matched, a pure function of its spec."""
+"""Work units: one scene or one drawing, and all that its result depends on."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass, replace
-from pathlib import Path
-from tempfile import TemporaryDirectory
+from dataclasses import dataclass
 
 import msgspec
-import numpy as np
 import pandas as pd
-import scipy.ndimage as ndi
-from numpy.typing import NDArray
 
-from rockshape.io import read_camera, read_image, read_labels, read_range
-from rockshape.observation import Observation
-from rockshape.pipeline import measure
-from rockshape.table import to_frame
-from synth.dataset import write_common, write_scene
-from synth.render import choose_backend
-from synth.shapes import write_series
-from validation.design.unit import run_design
-from validation.measures import MeasureSpec, Seen, run_measure, source_digest
-from validation.pictures import Picture, Portrait
-from validation.portraits import portraits, whole_view
-from validation.records import Place, join
-from validation.segments.unit import run_scene
-from validation.suite import (
+from validation.experiments import (
     DesignExperiment,
     SegmentationExperiment,
     ShapesExperiment,
-    Suite,
     YardExperiment,
 )
-from validation.truth import (
-    SceneTruth,
-    read_instances,
-    read_scene_truth,
-    read_shape_truth,
-    rock_columns,
-    view_columns,
-)
+from validation.measures import MeasureSpec, source_digest
+from validation.pictures import Picture, Portrait
+from validation.suite import Suite
 
 
 @dataclass(frozen=True)
@@ -136,8 +110,8 @@ def spec_of(unit: Unit) -> dict[str, object]:
         spec.pop(name, None)
     spec |= {
         "scene_number": unit.scene,
-        "pictured": _is_pictured(unit),
-        "portrayed": _is_portrayed(unit),
+        "pictured": is_pictured(unit),
+        "portrayed": is_portrayed(unit),
     }
     if isinstance(unit, SegmentationUnit | DesignUnit):
         return spec
@@ -152,168 +126,15 @@ def spec_of(unit: Unit) -> dict[str, object]:
     return spec
 
 
-def _is_pictured(unit: Unit) -> bool:
+def is_pictured(unit: Unit) -> bool:
+    """Whether the unit's whole views are kept."""
     if isinstance(unit, DesignUnit):
         return False
     return unit.scene < (1 if isinstance(unit, DrawingUnit) else unit.experiment.pictured)
 
 
-def _is_portrayed(unit: Unit) -> bool:
+def is_portrayed(unit: Unit) -> bool:
     """Whether each rock's portrait is kept: not where no scene is to be pictured."""
     if isinstance(unit, SegmentationUnit | DesignUnit):
         return False
     return isinstance(unit, DrawingUnit) or unit.experiment.pictured > 0
-
-
-def _true_centres(instances: NDArray[np.int32]) -> pd.DataFrame:
-    """Return the centre of each instance's visible pixels, (instance, truth_row, truth_col)."""
-    numbers = np.unique(instances[instances > 0])
-    centres = ndi.center_of_mass(instances > 0, instances, numbers) if numbers.size else []
-    table = pd.DataFrame(centres, columns=["truth_row", "truth_col"], dtype=np.float64)
-    table.insert(0, "instance", numbers.astype(np.int64) - 1)
-    return table
-
-
-def _view_truth(
-    scene: SceneTruth, view: int, instances: NDArray[np.int32], *, experiment: YardExperiment
-) -> pd.DataFrame:
-    """Return the truth of one view, one row a rock; `eligible` rocks stand in plain view."""
-    rocks = pd.DataFrame([rock_columns(rock) for rock in scene.rocks])
-    shown = pd.DataFrame(
-        [
-            view_columns(rock)
-            | {
-                "eligible": not rock.truncated
-                and rock.visible_fraction >= experiment.min_visible_fraction,
-            }
-            for rock in scene.views[str(view)]
-        ]
-    )
-    shown = shown.merge(_true_centres(instances), on="instance", how="left")
-    return rocks.merge(shown, on="instance", how="inner")
-
-
-@dataclass(frozen=True, eq=False)
-class View:
-    """One view with its truth, ready to be measured by every method."""
-
-    place: Place  # with the method yet to be named
-    observation: Observation
-    given: NDArray[np.int32] | None  # labels (rows, cols), or None where rocks are to be found
-    instances: NDArray[np.int32]
-    truth: pd.DataFrame
-    min_iou: float
-
-
-def _measure_view(view: View, unit: MeasuredUnit) -> UnitResult:
-    """Measure a view by the methods, then by measures from elsewhere on the first one's labels."""
-    image = view.observation.image
-    found = [
-        measure(view.observation, method=method, labels=view.given)
-        for method in unit.experiment.methods
-    ]
-    labels = found[0].labels
-    tables = [(each.method, each.labels, to_frame(each)) for each in found]
-    seen = Seen(image, labels, view.observation.points_m)
-    tables += [(spec.name, labels, run_measure(spec, seen)) for spec in unit.measures]
-    records = pd.concat(
-        [
-            join(
-                replace(view.place, method=method),
-                view.truth,
-                view.instances,
-                own_labels,
-                table,
-                min_iou=view.min_iou,
-            )
-            for method, own_labels, table in tables
-        ],
-        ignore_index=True,
-    )
-    return UnitResult(
-        records,
-        pictures=(whole_view(image, found[0], view.place),) if _is_pictured(unit) else (),
-        backend="",
-        portraits=portraits(image, found, view.instances, records, view.place)
-        if _is_portrayed(unit)
-        else (),
-    )
-
-
-def _scene_views(unit: SceneUnit, folder: Path) -> tuple[list[View], str]:
-    experiment = unit.experiment
-    scene_spec = experiment.scene_at(unit.series)
-    spec = msgspec.structs.replace(scene_spec, seed=experiment.seed + unit.scene)
-    backend = choose_backend(spec.renderer)
-    write_scene(spec, 0, backend, folder)
-    write_common(spec, backend, folder)
-    camera = read_camera(folder / "camera.json")
-    scene = folder / "000000"
-    truth = read_scene_truth(scene / "scene_gt_shape.json")
-    views = []
-    for number in range(spec.views.count):
-        name = f"{number:06d}.png"
-        image = read_image(scene / "gray" / name)
-        points_m = read_range(scene / "depth" / name, shape=image.shape, camera=camera)
-        instances = read_instances(scene / "labels" / name)
-        views.append(
-            View(
-                place=Place(
-                    experiment.name, "yard", unit.series, unit.scene, spec.seed, number, ""
-                ),
-                observation=Observation(image=image, points_m=points_m, camera=camera),
-                given=instances if experiment.labels == "true" else None,
-                instances=instances,
-                truth=_view_truth(truth, number, instances, experiment=experiment),
-                min_iou=experiment.min_iou,
-            )
-        )
-    return views, backend
-
-
-def _drawing_view(unit: DrawingUnit, folder: Path) -> View:
-    experiment = unit.experiment
-    seed = experiment.seed + unit.scene
-    write_series(unit.series, folder, count=experiment.count, seed=seed)
-    image = read_image(folder / "image.png")
-    return View(
-        place=Place(experiment.name, "shapes", unit.series, unit.scene, seed, 0, ""),
-        observation=Observation(image=image),
-        given=read_labels(folder / "labels.png", shape=image.shape),
-        instances=read_instances(folder / "labels.png"),
-        truth=read_shape_truth(folder / "truth.csv").assign(eligible=True),
-        min_iou=0.5,
-    )
-
-
-@contextmanager
-def _data_folder() -> Iterator[Path]:
-    """Name a folder for a unit's data that is gone after it."""
-    with TemporaryDirectory(prefix="rockshape-") as parent:
-        yield Path(parent) / "data"
-
-
-def views_of(unit: MeasuredUnit) -> tuple[list[View], str]:
-    """Make a unit's scene or drawing in a temporary folder; return its views and the renderer."""
-    with _data_folder() as folder:
-        if isinstance(unit, SceneUnit):
-            return _scene_views(unit, folder)
-        return [_drawing_view(unit, folder)], ""
-
-
-def run_unit(unit: Unit) -> UnitResult:
-    """Make, measure (or segment) and match one unit."""
-    if isinstance(unit, SegmentationUnit):
-        with _data_folder() as folder:
-            return UnitResult(*run_scene(unit.experiment, unit.scene, folder))
-    if isinstance(unit, DesignUnit):
-        records, backend = run_design(unit.experiment, unit.scene)
-        return UnitResult(records=records, pictures=(), backend=backend)
-    views, backend = views_of(unit)
-    measured = [_measure_view(view, unit) for view in views]
-    return UnitResult(
-        records=pd.concat([view.records for view in measured], ignore_index=True),
-        pictures=tuple(picture for view in measured for picture in view.pictures),
-        backend=backend,
-        portraits=tuple(portrait for view in measured for portrait in view.portraits),
-    )

@@ -8,8 +8,9 @@ import pandas as pd
 import pytest
 
 from validation.claims import Claim, all_claims
+from validation.experiments import ShapesExperiment, YardExperiment
 from validation.scores import Key
-from validation.suite import ShapesExperiment, Suite, YardExperiment, load_suite
+from validation.suite import Suite, load_suite
 
 MEASURES = (
     "axis_ratio",

@@ -107,7 +107,7 @@ def test_without_portraits_the_page_says_that_none_were_kept(suite, noise) -> No
 def test_a_suite_without_pictured_scenes_keeps_no_portraits(suite) -> None:
     yard = suite.experiments[0]
     without = msgspec.structs.replace(yard, pictured=0)
-    specs = [spec_of(SceneUnit(each, 3)) for each in (yard, without)]
+    specs = [spec_of(SceneUnit(each, "", 3)) for each in (yard, without)]
     assert [spec["portrayed"] for spec in specs] == [True, False]
     assert [spec["pictured"] for spec in specs] == [False, False]
 

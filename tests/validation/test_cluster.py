@@ -13,8 +13,8 @@ import pytest
 from rockshape.cli import main
 from validation.dispatch import dispatch
 from validation.executors import cluster, local
+from validation.experiments import ShapesExperiment
 from validation.store import UnitStore, unit_key
-from validation.suite import ShapesExperiment
 from validation.units import DrawingUnit
 
 pytest.importorskip("distributed", reason="the extra cluster is not installed")

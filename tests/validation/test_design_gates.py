@@ -6,9 +6,10 @@ import pytest
 
 from rockshape.measures import METHODS
 from validation.design.outlines import TRUTH_OF
+from validation.experiments import DesignExperiment
 from validation.gates import evaluate
 from validation.scores import gate_scores
-from validation.suite import DesignExperiment, Suite, load_suite
+from validation.suite import Suite, load_suite
 
 CELLS = ["series", "view", "distance", "sun", "roll"]
 

@@ -14,6 +14,7 @@ from validation.design.parts import CAUSES
 from validation.design.places import near_spec, scenes_of
 from validation.design.unit import shots, true_rocks
 from validation.errors import InputError
+from validation.experiments import DesignExperiment
 from validation.gates import Gate
 from validation.oracle import mixed, oracle, shuffled
 from validation.report.page import page_html
@@ -21,8 +22,9 @@ from validation.report.summary import summary_markdown
 from validation.run import assess
 from validation.scores import score_names, score_values
 from validation.store import UnitStore, pack, unit_key
-from validation.suite import DesignExperiment, Suite, load_suite
-from validation.units import DesignUnit, UnitResult, run_unit
+from validation.suite import Suite, load_suite
+from validation.units import DesignUnit, UnitResult
+from validation.work import run_unit
 
 SUITE = """
 name = "small"

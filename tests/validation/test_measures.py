@@ -10,14 +10,16 @@ import pytest
 from rockshape.cli import main
 from validation.claims import claims_of
 from validation.errors import InputError
+from validation.experiments import ShapesExperiment, YardExperiment
 from validation.gates import Gate
 from validation.measures import MeasureSpec, Seen, run_measure, source_digest
 from validation.measures.adapters import ADAPTERS
 from validation.measures.parse import parse_measure, parse_rises_with, settle
 from validation.measures.seen import as_table
 from validation.scores import score_values
-from validation.suite import ShapesExperiment, Suite, YardExperiment
-from validation.units import DrawingUnit, run_unit
+from validation.suite import Suite
+from validation.units import DrawingUnit
+from validation.work import run_unit
 
 MODULE = """
 import numpy as np

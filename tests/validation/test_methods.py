@@ -6,16 +6,12 @@ import pytest
 
 from rockshape.measures import METHODS
 from validation.claims import claims_of
+from validation.experiments import ShapesExperiment, YardExperiment
 from validation.gates import Gate, gates_on
 from validation.scores import definitions, score_names, score_values
-from validation.suite import (
-    ShapesExperiment,
-    Suite,
-    YardExperiment,
-    load_suite,
-    with_methods,
-)
-from validation.units import DrawingUnit, run_unit
+from validation.suite import Suite, load_suite, with_methods
+from validation.units import DrawingUnit
+from validation.work import run_unit
 
 GATE = Gate(score="s.sphericity.axis_ratio.tau", at_least=0.0, reason="r")
 

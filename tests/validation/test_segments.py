@@ -10,6 +10,7 @@ import pytest
 from rockshape.observation import Observation
 from validation.compare import Recorded, check_paired, compare
 from validation.errors import InputError
+from validation.experiments import SegmentationExperiment
 from validation.gates import Gate, evaluate
 from validation.oracle import mixed, oracle, shuffled
 from validation.report.page import page_html
@@ -19,8 +20,9 @@ from validation.scores import gate_scores, score_values
 from validation.segments.baselines import fixed_height, otsu, plain_watershed
 from validation.segments.judge import Rule, judge
 from validation.store import UnitStore, pack, unit_key
-from validation.suite import SegmentationExperiment, load_suite
-from validation.units import SegmentationUnit, UnitResult, run_unit
+from validation.suite import load_suite
+from validation.units import SegmentationUnit, UnitResult
+from validation.work import run_unit
 
 RULE = Rule(min_iou=0.5, min_width_px=12)
 

@@ -18,9 +18,11 @@ from validation import store as store_module
 from validation.dispatch import dispatch, run_packed
 from validation.errors import InputError, WorkerError
 from validation.executors import LocalExecutor, local
+from validation.experiments import ShapesExperiment
 from validation.store import UnitStore, code_of, is_store, pack, unit_key
-from validation.suite import ShapesExperiment, load_suite
-from validation.units import DrawingUnit, run_unit, units_of
+from validation.suite import load_suite
+from validation.units import DrawingUnit, units_of
+from validation.work import run_unit
 
 SUITE = """
 name = "drawings"

@@ -5,11 +5,13 @@ import pandas as pd
 import pytest
 
 from synth.spec import SceneSpec
+from validation.experiments import YardExperiment
 from validation.scores import definitions
 from validation.store import unit_key
-from validation.suite import Suite, YardExperiment
+from validation.suite import Suite
 from validation.sweep import Sweep
-from validation.units import run_unit, units_of
+from validation.units import units_of
+from validation.work import run_unit
 
 
 def sweep(key, values) -> Sweep:

@@ -7,7 +7,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from validation.design.unit import CLEAN, FOUND, NOISY
-from validation.suite import DesignExperiment
+from validation.experiments import DesignExperiment
 
 Floats = NDArray[np.float64]
 

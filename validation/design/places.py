@@ -8,7 +8,7 @@ import numpy as np
 from synth.paths import stations
 from synth.scene import PlacedRock, Scene, build_scene
 from synth.spec import SceneSpec
-from validation.suite import DesignExperiment
+from validation.experiments import DesignExperiment
 
 
 def near_spec(experiment: DesignExperiment, scene: int) -> SceneSpec:

@@ -22,9 +22,9 @@ from synth.sensor.rig import rig_of
 from synth.shape_truth import scene_gt_shape
 from synth.spec import SceneSpec
 from validation.design.places import near_spec, scenes_of
+from validation.experiments import DesignExperiment
 from validation.match import match_labels
 from validation.records import Place, join
-from validation.suite import DesignExperiment
 
 REFERENCE = "paper"
 CLEAN, FOUND, NOISY = STATES = ("clean", "found", "noisy")

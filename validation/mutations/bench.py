@@ -12,12 +12,14 @@ from rockshape.measurement import Measurement
 from rockshape.measures import METHODS
 from rockshape.pipeline import measure
 from rockshape.table import to_frame
+from validation.experiments import DesignExperiment, SegmentationExperiment, YardExperiment
 from validation.gates import evaluate, gates_on
 from validation.mutations.mutation import Mutation
 from validation.records import join
 from validation.scores import gate_scores, score_names
-from validation.suite import DesignExperiment, SegmentationExperiment, Suite, YardExperiment
-from validation.units import MeasuredUnit, View, units_of, views_of
+from validation.suite import Suite
+from validation.units import MeasuredUnit, units_of
+from validation.views import View, views_of
 
 
 @dataclass(frozen=True)

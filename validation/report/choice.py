@@ -9,10 +9,10 @@ import pandas as pd
 
 from rockshape.measures import METHODS
 from validation.claims import all_claims
+from validation.experiments import SegmentationExperiment, YardExperiment
 from validation.pictures import Portrait
 from validation.report.offs import farthest
 from validation.run import Run
-from validation.suite import SegmentationExperiment, YardExperiment
 
 FARTHEST = 24  # of each claim, and of what was missed or taken for a rock
 _ROCK_BYTES, _VALUE_BYTES = 900, 110  # of a view's row and panel, and of each value there

@@ -4,10 +4,10 @@ import math
 from dataclasses import dataclass
 
 from validation.claims import all_claims
+from validation.experiments import YardExperiment
 from validation.report.words import interval, number
 from validation.run import Run
 from validation.scores import Key, Score
-from validation.suite import YardExperiment
 
 _TRUTHS = {
     "truth_angularity": "angularity",

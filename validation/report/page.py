@@ -7,6 +7,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup, escape
 
 from validation.claims import all_claims
+from validation.experiments import SegmentationExperiment, ShapesExperiment, YardExperiment
 from validation.naming import REFERENCE, title_of
 from validation.paper import CONSISTENCY_TABLES
 from validation.report.charts import mark_symbols, span, view_key
@@ -26,7 +27,6 @@ from validation.report.words import interval, number
 from validation.run import Run
 from validation.scores.agreement import STATISTICS
 from validation.scores.garden import is_garden
-from validation.suite import SegmentationExperiment, ShapesExperiment, YardExperiment
 
 MAX_BYTES = 5_000_000  # of the page
 SHARES = (1.0, 0.6, 0.3, 0.1, 0.0)  # of the room below, tried one after another until it fits

@@ -9,13 +9,13 @@ from markupsafe import Markup
 
 from rockshape.measures import METHODS
 from validation.claims import claims_of
+from validation.experiments import ShapesExperiment, YardExperiment
 from validation.naming import title_of, unit_of
 from validation.pictures import Portrait
 from validation.report.choice import RockKey, keys_of
 from validation.report.embed import symbols
 from validation.report.offs import ranks_off
 from validation.run import Run
-from validation.suite import ShapesExperiment, YardExperiment
 
 Measured = YardExperiment | ShapesExperiment
 

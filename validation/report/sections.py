@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from validation.claims import claims_of
+from validation.experiments import SegmentationExperiment, ShapesExperiment, YardExperiment
 from validation.naming import REFERENCE, title_of_claim, unit_of
 from validation.paper.prose import FIGURES, Quoted
 from validation.pictures import Portrait
@@ -19,7 +20,6 @@ from validation.scores import Score
 from validation.scores.blocks import blocks_of
 from validation.scores.score import Key
 from validation.scores.shapes import gap_shares
-from validation.suite import SegmentationExperiment, ShapesExperiment, YardExperiment
 
 
 @dataclass(frozen=True)

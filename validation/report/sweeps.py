@@ -6,13 +6,13 @@ from dataclasses import dataclass
 from markupsafe import Markup
 
 from rockshape.measures import METHODS
+from validation.experiments import YardExperiment
 from validation.report.lines import Line, line_chart
 from validation.report.rocks import RockTable, rock_table
 from validation.report.sections import Room
 from validation.report.shown import ShownPicture, shown_pictures
 from validation.run import Run
 from validation.scores import Key, Score
-from validation.suite import YardExperiment
 
 _CHARTED = (  # statistic, heading, the least top of its axis
     ("tau", "Order within a view (τ_b)", 1.0),

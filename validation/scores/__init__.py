@@ -5,16 +5,16 @@ from collections.abc import Sequence
 import pandas as pd
 
 from validation.claims import claims_of, view_claims_of
-from validation.gates import Found, Gate
-from validation.scores import design, garden, segmentation, shapes, yard
-from validation.scores.score import Definition, Key, Score, estimate
-from validation.suite import (
+from validation.experiments import (
     DesignExperiment,
     Experiment,
     SegmentationExperiment,
-    Suite,
     YardExperiment,
 )
+from validation.gates import Found, Gate
+from validation.scores import design, garden, segmentation, shapes, yard
+from validation.scores.score import Definition, Key, Score, estimate
+from validation.suite import Suite
 
 __all__ = [
     "Definition",

@@ -22,9 +22,9 @@ from validation.design.cubes import Cubes, cubes_of
 from validation.design.outlines import TRUTH_OF, explained_share, moments_of
 from validation.design.parts import CAUSES, FEWEST_VIEWS, split
 from validation.design.unit import CLEAN, FOUND, NOISY, STATES
+from validation.experiments import DesignExperiment
 from validation.naming import REFERENCE
 from validation.scores.score import Better, Definition, Estimate, Key
-from validation.suite import DesignExperiment
 
 Floats = NDArray[np.float64]
 Compute = Callable[[Cubes], Estimate]

@@ -8,10 +8,10 @@ import pandas as pd
 from scipy import stats
 
 from rockshape.measures import METHODS
+from validation.experiments import YardExperiment
 from validation.naming import REFERENCE
 from validation.scores.detection import rock_numbers
 from validation.scores.score import Definition, Estimate, Key
-from validation.suite import YardExperiment
 
 
 class Couple(NamedTuple):

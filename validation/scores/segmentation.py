@@ -7,8 +7,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from validation.experiments import SegmentationExperiment
 from validation.scores.score import Better, Definition, Estimate, Key
-from validation.suite import SegmentationExperiment
 
 SIZES_PX = ((12, 24), (24, 48), (48, np.inf))
 DEPTHS_M = ((0, 4), (4, 6), (6, 8), (8, np.inf))

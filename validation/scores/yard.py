@@ -6,12 +6,12 @@ from dataclasses import replace
 import pandas as pd
 
 from validation.claims import Claim
+from validation.experiments import YardExperiment
 from validation.naming import REFERENCE, title_of_claim, unit_of
 from validation.scores import detection, levels
 from validation.scores.agreement import ORDERS, STATISTICS, Statistic
 from validation.scores.blocks import blocks_of
 from validation.scores.score import Better, Definition, Estimate, Key
-from validation.suite import YardExperiment
 
 VIEW_PREFIX = "view_"  # of statistics against the outline that a view shows
 

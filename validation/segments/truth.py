@@ -7,7 +7,7 @@ import scipy.ndimage as ndi
 from numpy.typing import NDArray
 
 from rockshape.camera import Camera
-from validation.suite import SegmentationExperiment
+from validation.experiments import SegmentationExperiment
 from validation.truth import RockView
 
 Floats = NDArray[np.float64]

@@ -17,12 +17,12 @@ from rockshape.segmentation import Segmentation, segment
 from synth.camera import PRESETS
 from synth.dataset import write_common, write_scene
 from synth.render import choose_backend
+from validation.experiments import SegmentationExperiment
 from validation.pictures import Picture, compress
 from validation.records import Place
 from validation.segments.baselines import fixed_height, otsu, plain_watershed
 from validation.segments.judge import Rule, judge
 from validation.segments.truth import ViewTruth, range_counts, view_truth
-from validation.suite import SegmentationExperiment
 from validation.truth import read_instances, read_scene_truth
 
 Labels = NDArray[np.int32]

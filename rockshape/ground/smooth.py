@@ -24,7 +24,7 @@ FINE_CELL = 0.01  # and to follow it
 MOST_CELLS = 20_000
 UNEVEN = 1.0  # scatters of a cell's points that cells may differ by on a plane
 STEEPEST = 0.5  # slope of ground, 27 degrees; dry sand lies at up to 32
-SCATTERS = 1.0  # of a cell's own points, that it may stand above the gentlest surface
+MOST_SCATTER = 2.0  # of a cell's points over that usual at its distance: on rocks they scatter more
 NEAR_CELLS = 1.0  # standard deviation of the average that a cell beside a rock is held to,
 NEAR_RISE = 0.5  # and the share of the steepest rise that it may stand above it
 STIFF = 0.2  # weight of the surface's bending against a cell's misfit
@@ -86,11 +86,12 @@ def fit_swell(points_m: Floats, *, normal: Floats, height_m: Floats, noise: Nois
 
     A cell of the grid has the median height h of its points. Of the cells those are ground that lie
     on the highest surface below all of them which is nowhere steeper than 27 degrees (see
-    `envelope`), to within their own points' scatter. Cells beside one that is not may hold points
-    of both: they are ground where they stand less than half of the steepest rise over the average
-    of the ground near them. The surface s minimises sum (h - s)^2 over the ground, + 0.2 sum
-    (bending)^2 + 0.002 sum (rise)^2 over all cells (see `bend`), so that it passes calmly below
-    rocks. None where too few cells are seen.
+    `envelope`), to within their own points' scatter, which counts for no more than twice what is
+    usual at their distance. Cells beside one that is not may hold points of both: they are ground
+    where they stand less than half of the steepest rise over the average of the ground near them.
+    The surface s minimises sum (h - s)^2 over the ground, + 0.2 sum (bending)^2 + 0.002 sum
+    (rise)^2 over all cells (see `bend`), so that it passes calmly below rocks. None where too few
+    cells are seen.
     """
     cells = _gather(points_m, normal=normal, height_m=height_m, noise=noise, cell=FINE_CELL)
     if cells is None:
@@ -167,7 +168,10 @@ def _ground_cells(cells: _Cells) -> Mask:
     distance_m = np.exp(cells.origin[1] + cells.side * np.arange(cells.seen.shape[1]))
     rise_m = STEEPEST * cells.side * distance_m
     gentle_m = gentle_below(np.where(cells.seen, cells.middle_m, np.inf), rise_m)
-    steep = cells.seen & (cells.middle_m - gentle_m > SCATTERS * cells.scatter_m)
+    own_m = np.ma.masked_array(cells.scatter_m, ~cells.seen)
+    usual_m = np.ma.median(own_m, axis=0).filled(0)  # type: ignore[no-untyped-call]
+    slack_m = np.minimum(cells.scatter_m, MOST_SCATTER * usual_m)
+    steep = cells.seen & (cells.middle_m - gentle_m > slack_m)
     beside = cv2.dilate(steep.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
     sure = (cells.seen & ~beside).astype(np.float32)
     total, weight = (

@@ -120,8 +120,13 @@ Record = Mapping[str, object]
 def rock_table(
     run: Run, experiment: Measured, chosen: Mapping[RockKey, Sequence[Portrait]]
 ) -> RockTable:
-    """Return the chosen rocks of an experiment in the order of its scenes."""
+    """Return the chosen rocks of an experiment in the order of its scenes.
+
+    A rock has a row for each view that shows anything of it.
+    """
     own = run.records[run.records["experiment"] == experiment.name]
+    if "truth_visible_fraction" in own:
+        own = own[own["truth_visible_fraction"] != 0]
     keys = sorted(
         (key for key in chosen if key.experiment == experiment.name),
         key=lambda key: (key.series, key.scene, key.instance is None, key.instance or 0, key.id),

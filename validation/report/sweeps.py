@@ -18,6 +18,7 @@ _CHARTED = (  # statistic, heading, the least top of its axis
     ("tau", "Order within a view (τ_b)", 1.0),
     ("cv", "Variation of a rock between views (CV)", 0.25),
 )
+FEWEST = 10  # pairs or rocks, below which a score is not drawn
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,7 @@ class SweepSection:
     measured: tuple[tuple[str, tuple[float, ...]], ...]  # method and measure, share with a value
     table: RockTable
     pictures: tuple[ShownPicture, ...]
+    fewest: int = FEWEST
 
 
 def _columns(experiment: YardExperiment) -> dict[str, dict[str, str]]:
@@ -49,12 +51,13 @@ def _line(
         scores.get(Key(experiment.name, method, step, column, statistic).name)
         for step in experiment.series
     ]
+    drawn = [score if score and score.count >= FEWEST else None for score in found]
     return Line(
         name=method,
         style=experiment.methods.index(method),
-        values=tuple(score.value if score else math.nan for score in found),
-        lows=tuple(score.low if score else math.nan for score in found),
-        highs=tuple(score.high if score else math.nan for score in found),
+        values=tuple(score.value if score else math.nan for score in drawn),
+        lows=tuple(score.low if score else math.nan for score in drawn),
+        highs=tuple(score.high if score else math.nan for score in drawn),
     )
 
 

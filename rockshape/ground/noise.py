@@ -30,6 +30,10 @@ class Noise:
         """Standard deviation of a z-depth."""
         return self.inverse_depth_per_m * depth_m**2
 
+    def depth_px(self, depth_m: float) -> float:
+        """Standard deviation of a z-depth in pixels' sizes there."""
+        return self.inverse_depth_per_m * depth_m / self.pixel_rad
+
     def height_m(
         self, depth_m: NDArray[np.floating], slant: NDArray[np.floating]
     ) -> NDArray[np.floating]:

@@ -12,10 +12,15 @@ from rockshape.segmentation.image import find_by_image
 from rockshape.segmentation.numbers import in_reading_order, renumber
 from rockshape.segmentation.paper import segment_heights
 from rockshape.segmentation.relief import Relief, relief_of, standing
+from rockshape.segmentation.snap import Outline
 from rockshape.segmentation.split import FLATTEST, FLATTEST_ON_WAVES, split
 from rockshape.visibility import measured_frame
 
 Labels = NDArray[np.int32]
+
+# Matching windows bleed over edges, by a scatter of range of a quarter of a pixel's size and more;
+# range that scatters by less has its edges where the rocks have them.
+FINEST_MATCH_PX = 0.05
 
 
 def segment(observation: Observation, *, variant: Variant) -> Segmentation:
@@ -71,8 +76,7 @@ def _by_range_and_image(observation: Observation) -> Segmentation:
         frame = measured_frame(relief.known)
     labels = find_by_image(observation.image, relief, by_range)
     from_range = int(by_range.max(initial=0))
-    texture = texture_of(observation.image)
-    outlines, moved = snapped(observation.image, labels, relief, texture=texture)
+    outlines, moved = _at_edges(observation, labels, ground, relief)
     numbered = renumber(moved, dropped=np.empty(0, dtype=np.intp))
     found = []
     for number, before in enumerate(in_reading_order(moved).tolist(), start=1):
@@ -81,6 +85,18 @@ def _by_range_and_image(observation: Observation) -> Segmentation:
     flags = flag(observation.image, numbered, relief, frame=frame)
     told = tuple(Found(one.number, one.branch, flags[one.number], one.outline) for one in found)
     return Segmentation(numbered, None if ground is None else ground.plane, frame, told)
+
+
+def _at_edges(
+    observation: Observation, labels: Labels, ground: Ground | None, relief: Relief | None
+) -> tuple[dict[int, Outline], Labels]:
+    """Outlines moved to the image's edges, unless range is finer than any matcher's."""
+    if ground is not None and relief is not None:
+        own_m = relief.depth_m[(labels > 0) & relief.known]
+        if own_m.size and ground.noise.depth_px(float(np.median(own_m))) < FINEST_MATCH_PX:
+            return {}, labels
+    texture = texture_of(observation.image)
+    return snapped(observation.image, labels, relief, texture=texture)
 
 
 def _stand(observation: Observation) -> tuple[Ground | None, Relief | None]:

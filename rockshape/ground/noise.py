@@ -9,6 +9,7 @@ from scipy.optimize import nnls
 BINS = 8
 FEWEST_IN_BIN = 30
 NORMAL_MEDIAN = 0.6745  # of |x| for the standard normal distribution
+FINE_SHARE = 0.05  # of a pixel's size
 PIXEL_SHARE = 0.25  # heights below this share of a pixel's size cannot be seen
 
 
@@ -30,9 +31,13 @@ class Noise:
         """Standard deviation of a z-depth."""
         return self.inverse_depth_per_m * depth_m**2
 
-    def depth_px(self, depth_m: float) -> float:
-        """Standard deviation of a z-depth in pixels' sizes there."""
-        return self.inverse_depth_per_m * depth_m / self.pixel_rad
+    def is_fine(self, depth_m: float) -> bool:
+        """Whether a z-depth there scatters by less than a twentieth of a pixel's size.
+
+        Matching windows scatter by a quarter of it and more, and bleed over edges; what scatters by
+        less has its edges where the rocks have them.
+        """
+        return self.inverse_depth_per_m * depth_m < FINE_SHARE * self.pixel_rad
 
     def height_m(
         self, depth_m: NDArray[np.floating], slant: NDArray[np.floating]

@@ -28,6 +28,7 @@ class Relief:
     signal: Singles  # height over sigma, smoothed by a median; 0 where nothing was measured
     known: Mask
     pixel_rad: float  # a pixel's angle
+    fine: bool  # whether range is exact beside its pixels, and its edges the rocks'
 
 
 def relief_of(points_m: NDArray[np.float64], ground: Ground) -> Relief:
@@ -35,7 +36,7 @@ def relief_of(points_m: NDArray[np.float64], ground: Ground) -> Relief:
 
     The noise of a height is the ground's: its roughness, and the range's, which grows with the
     square of the distance. The signal is smoothed by a median over 5 x 5 pixels, which leaves
-    edges where they are.
+    edges where they are but takes off corners: not where range is fine.
     """
     depth = points_m[..., 2].astype(np.float32)
     height = ground.height_m(points_m).astype(np.float32)
@@ -45,9 +46,12 @@ def relief_of(points_m: NDArray[np.float64], ground: Ground) -> Relief:
     with np.errstate(divide="ignore", invalid="ignore"):
         sigma = ground.noise.height_m(depth, np.where(known, above / depth, 0)).astype(np.float32)
     sigma[~known] = 1.0
-    signal = cv2.medianBlur(height / sigma, MEDIAN_PX)
+    fine = bool(known.any()) and ground.noise.is_fine(float(np.median(depth[known])))
+    signal = height / sigma if fine else cv2.medianBlur(height / sigma, MEDIAN_PX)
     signal[~known] = 0.0
-    return Relief(height, depth, sigma, np.asarray(signal), known, ground.noise.pixel_rad)
+    return Relief(
+        height, depth, sigma, np.asarray(signal, np.float32), known, ground.noise.pixel_rad, fine
+    )
 
 
 def standing(relief: Relief) -> Mask:
@@ -56,11 +60,10 @@ def standing(relief: Relief) -> Mask:
     A region is 4-connected, begins 2.5 standard deviations above the ground, has 40 pixels and 12
     of them 5 standard deviations above it. What it encloses is part of it.
     """
-    low = cv2.morphologyEx(
-        (relief.signal > FOOT_SIGMA).astype(np.uint8),
-        cv2.MORPH_OPEN,
-        cv2.getStructuringElement(cv2.MORPH_CROSS, (3, 3)),
-    )
+    low: NDArray[np.integer] = (relief.signal > FOOT_SIGMA).astype(np.uint8)
+    if not relief.fine:
+        cross = cv2.getStructuringElement(cv2.MORPH_CROSS, (3, 3))
+        low = np.asarray(cv2.morphologyEx(low, cv2.MORPH_OPEN, cross))
     count, regions, stats, _ = cv2.connectedComponentsWithStats(low, connectivity=4)
     high = np.bincount(regions[relief.signal > STAND_SIGMA], minlength=count)
     good = (high >= STAND_PIXELS) & (stats[:, cv2.CC_STAT_AREA] >= FEWEST_PIXELS)

@@ -18,10 +18,6 @@ from rockshape.visibility import measured_frame
 
 Labels = NDArray[np.int32]
 
-# Matching windows bleed over edges, by a scatter of range of a quarter of a pixel's size and more;
-# range that scatters by less has its edges where the rocks have them.
-FINEST_MATCH_PX = 0.05
-
 
 def segment(observation: Observation, *, variant: Variant) -> Segmentation:
     """Find the rocks of an observation.
@@ -76,7 +72,7 @@ def _by_range_and_image(observation: Observation) -> Segmentation:
         frame = measured_frame(relief.known)
     labels = find_by_image(observation.image, relief, by_range)
     from_range = int(by_range.max(initial=0))
-    outlines, moved = _at_edges(observation, labels, ground, relief)
+    outlines, moved = _at_edges(observation, labels, relief)
     numbered = renumber(moved, dropped=np.empty(0, dtype=np.intp))
     found = []
     for number, before in enumerate(in_reading_order(moved).tolist(), start=1):
@@ -88,13 +84,11 @@ def _by_range_and_image(observation: Observation) -> Segmentation:
 
 
 def _at_edges(
-    observation: Observation, labels: Labels, ground: Ground | None, relief: Relief | None
+    observation: Observation, labels: Labels, relief: Relief | None
 ) -> tuple[dict[int, Outline], Labels]:
     """Outlines moved to the image's edges, unless range is finer than any matcher's."""
-    if ground is not None and relief is not None:
-        own_m = relief.depth_m[(labels > 0) & relief.known]
-        if own_m.size and ground.noise.depth_px(float(np.median(own_m))) < FINEST_MATCH_PX:
-            return {}, labels
+    if relief is not None and relief.fine:
+        return {}, labels
     texture = texture_of(observation.image)
     return snapped(observation.image, labels, relief, texture=texture)
 

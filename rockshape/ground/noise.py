@@ -32,12 +32,13 @@ class Noise:
         return self.inverse_depth_per_m * depth_m**2
 
     def is_fine(self, depth_m: float) -> bool:
-        """Whether a z-depth there scatters by less than a twentieth of a pixel's size.
+        """Whether heights and z-depths there scatter by less than a twentieth of a pixel's size.
 
         Matching windows scatter by a quarter of it and more, and bleed over edges; what scatters by
         less has its edges where the rocks have them.
         """
-        return self.inverse_depth_per_m * depth_m < FINE_SHARE * self.pixel_rad
+        scatter_m = np.hypot(self.rough_m, self.inverse_depth_per_m * depth_m**2)
+        return bool(scatter_m < FINE_SHARE * self.pixel_rad * depth_m)
 
     def height_m(
         self, depth_m: NDArray[np.floating], slant: NDArray[np.floating]

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from rockshape.ground import fit_ground
+from rockshape.ground.noise import Noise
 from rockshape.observation import Observation
 from rockshape.segmentation import Segmentation, segment
 from rockshape.segmentation.relief import relief_of
@@ -142,3 +143,26 @@ def test_the_published_way_is_what_it_was() -> None:
     blind = segment(Observation(image=image), variant="paper")
     assert blind.labels.max() == 0
     assert blind.ground is None
+
+
+def test_exact_range_keeps_its_outlines_whatever_the_image_shows() -> None:
+    # What stands less than 0.6 of a pixel's size is lost at the foot; nothing else is.
+    points, labels = scene((0.0, 2.0, 0.15))
+    image = np.full(points.shape[:2], 0.5, dtype=np.float32)
+    image[:, : image.shape[1] // 2] = 0.05  # a shadow's edge across the rock
+    found = segment(
+        Observation(image=image, points_m=points, camera=solids.CAMERA), variant="robust"
+    )
+    assert all(one.outline is None for one in found.found)
+    assert overlap(found.labels == found.labels[labels == 1].max(), labels == 1) > 0.98
+
+
+@pytest.mark.parametrize(
+    ("rough_m", "inverse_depth_per_m", "fine"),
+    [(0.0, 0.0, True), (2e-5, 1e-6, True), (2e-3, 0.0, False), (0.0, 1e-4, False)],
+)
+def test_fine_range_is_finer_than_a_twentieth_of_a_pixel(
+    rough_m: float, inverse_depth_per_m: float, fine: bool
+) -> None:
+    # At 4 m a pixel of 0.8 mrad is 3.2 mm: a twentieth is 0.16 mm.
+    assert Noise(rough_m, inverse_depth_per_m, 8e-4).is_fine(4.0) is fine

@@ -12,9 +12,9 @@ from validation.measures.declare import rises_with
 
 @rises_with(solidity="roundness", circularity="roundness", axis_ratio="form", feret_ratio="form")
 def measure(
-    image: NDArray[np.float32],  # noqa: ARG001 (every measure is shown all three)
+    image: NDArray[np.float32],
     labels: NDArray[np.int32],
-    points_m: NDArray[np.float64] | None,  # noqa: ARG001
+    points_m: NDArray[np.float64] | None,
 ) -> dict[str, list[float]]:
     """Ratios of its areas, perimeter, axes and Feret diameters, as shape factors are formed."""
 

@@ -10,9 +10,9 @@ from validation.measures.declare import rises_with
 
 @rises_with(roundness="roundness", circularity="roundness", sphericity="form", axis_ratio="form")
 def measure(
-    image: NDArray[np.float32],  # noqa: ARG001 (every measure is shown all three)
+    image: NDArray[np.float32],
     labels: NDArray[np.int32],
-    points_m: NDArray[np.float64] | None,  # noqa: ARG001
+    points_m: NDArray[np.float64] | None,
 ) -> dict[str, list[float]]:
     """Its four numbers, the axis ratio short over long; NaN where it has none."""
 

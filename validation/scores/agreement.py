@@ -35,7 +35,8 @@ class Statistic:
     compute: Callable[[Sequence[Block]], Estimate]
 
 
-def _tau(pairs: Pairs) -> Estimate:
+def tau(pairs: Pairs) -> Estimate:
+    """Return Kendall's τ_b of pooled pairs, ready to be weighted by rock."""
     return Estimate(tau_b(pairs), pairs.decided, pairs.rocks, lambda w: tau_b(pairs, w))
 
 
@@ -80,7 +81,7 @@ ORDERS = (
         "1",
         "pairs",
         "higher",
-        lambda blocks: _tau(within_views(blocks)),
+        lambda blocks: tau(within_views(blocks)),
     ),
     Statistic(
         "pairs_across",
@@ -107,7 +108,7 @@ STATISTICS = (
         "1",
         "pairs",
         "higher",
-        lambda blocks: _tau(between_views(blocks)),
+        lambda blocks: tau(between_views(blocks)),
     ),
     Statistic(
         "cv",

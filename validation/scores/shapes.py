@@ -1,17 +1,15 @@
 """Scores of hand-drawn shapes in series, as in the paper's figures 8 and 9."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.agreement import Block, tau_b, within_views
+from validation.agreement import Block, within_views
 from validation.claims import Claim
-from validation.naming import title_of_claim, unit_of
-from validation.scores.agreement import weighted_mean
-from validation.scores.blocks import blocks_of
-from validation.scores.score import Better, Definition, Estimate, Key
+from validation.scores.agreement import Statistic, tau, weighted_mean
+from validation.scores.define import define
+from validation.scores.score import Definition, Estimate
 
 
 def gap_shares(values: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -28,11 +26,6 @@ def gap_shares(values: NDArray[np.float64]) -> NDArray[np.float64]:
 def _series(block: Block) -> NDArray[np.float64]:
     values: NDArray[np.float64] = block.values[0]
     return values
-
-
-def _tau(blocks: Sequence[Block]) -> Estimate:
-    pairs = within_views(blocks)
-    return Estimate(tau_b(pairs), pairs.decided, pairs.rocks, lambda w: tau_b(pairs, w))
 
 
 def _gap_error(blocks: Sequence[Block]) -> Estimate:
@@ -55,19 +48,16 @@ def _level(blocks: Sequence[Block]) -> Estimate:
     return weighted_mean(np.concatenate([np.empty(0), *(_series(block) for block in blocks)]))
 
 
-@dataclass(frozen=True)
-class _Statistic:
-    key: str
-    title: str
-    unit: str  # empty for the measure's own
-    counted: str
-    better: Better
-    compute: Callable[[Sequence[Block]], Estimate]
-
-
 _ANY = (
-    _Statistic("tau", "order of a drawing's shapes (Kendall's τ_b)", "1", "pairs", "higher", _tau),
-    _Statistic(
+    Statistic(
+        "tau",
+        "order of a drawing's shapes (Kendall's τ_b)",
+        "1",
+        "pairs",
+        "higher",
+        lambda blocks: tau(within_views(blocks)),
+    ),
+    Statistic(
         "gap_error",
         "gaps between neighbours, RMS from the true gaps",
         "share of the way",
@@ -75,26 +65,15 @@ _ANY = (
         "lower",
         _gap_error,
     ),
-    _Statistic("level", "mean value", "", "shapes", "neither", _level),
+    Statistic("level", "mean value", "", "shapes", "neither", _level),
 )
-_ERROR = _Statistic("error", "RMS difference from the true value", "1", "shapes", "lower", _error)
-
-
-def _definition(claim: Claim, statistic: _Statistic) -> Definition:
-    return Definition(
-        key=Key(claim.experiment, claim.method, claim.series, claim.measure, statistic.key),
-        title=f"{title_of_claim(claim)}: {statistic.title}",
-        unit=statistic.unit or unit_of(claim.measure) or "1",
-        counted=statistic.counted,
-        better=statistic.better,
-        compute=lambda records: statistic.compute(blocks_of(records, claim)),
-    )
+_ERROR = Statistic("error", "RMS difference from the true value", "1", "shapes", "lower", _error)
 
 
 def definitions(claims: Sequence[Claim]) -> tuple[Definition, ...]:
     """Return the scores of one experiment's claims; an error only where it has a meaning."""
     return tuple(
-        _definition(claim, statistic)
+        define(claim, statistic)
         for claim in claims
         for statistic in (*_ANY, *((_ERROR,) if claim.same_quantity else ()))
     )

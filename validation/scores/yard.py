@@ -7,10 +7,10 @@ import pandas as pd
 
 from validation.claims import Claim
 from validation.experiments import YardExperiment
-from validation.naming import REFERENCE, title_of_claim, unit_of
+from validation.naming import REFERENCE
 from validation.scores import detection, levels
 from validation.scores.agreement import ORDERS, STATISTICS, Statistic
-from validation.scores.blocks import blocks_of
+from validation.scores.define import define
 from validation.scores.score import Better, Definition, Estimate, Key
 
 VIEW_PREFIX = "view_"  # of statistics against the outline that a view shows
@@ -78,17 +78,6 @@ def _of_method(experiment: YardExperiment, series: str, method: str) -> list[Def
     ]
 
 
-def _of_claim(claim: Claim, statistic: Statistic) -> Definition:
-    return Definition(
-        key=Key(claim.experiment, claim.method, claim.series, claim.measure, statistic.key),
-        title=f"{title_of_claim(claim)}: {statistic.title}",
-        unit=statistic.unit or unit_of(claim.measure) or "1",
-        counted=statistic.counted,
-        better=statistic.better,
-        compute=lambda records: statistic.compute(blocks_of(records, claim)),
-    )
-
-
 def _of_view(statistic: Statistic) -> Statistic:
     """Return a statistic of what each view truly shows under a name of its own."""
     return replace(
@@ -108,9 +97,9 @@ def definitions(
         for method in experiment.methods
         for definition in _of_method(experiment, series, method)
     ]
-    ranked = [_of_claim(claim, s) for claim in claims for s in (*STATISTICS, *levels.of(claim))]
+    ranked = [define(claim, s) for claim in claims for s in (*STATISTICS, *levels.of(claim))]
     shown = [
-        _of_claim(claim, _of_view(statistic))
+        define(claim, _of_view(statistic))
         for claim in view_claims
         for statistic in (*ORDERS, *(levels.DIFFERENCES if claim.same_quantity else ()))
     ]

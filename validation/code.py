@@ -1,68 +1,109 @@
-"""What code a unit's result comes from: the sources that make, measure and match, and versions."""
+"""Code fingerprint: a hash of every file that can change a unit's result, and of versions.
+
+The three packages and all plug-ins are walked, so that a new, moved or renamed file counts without
+being listed. Only what scores, draws or parses the command line is left out.
+"""
 
 import hashlib
 import platform
+import re
+from collections.abc import Collection, Iterator
 from functools import cache
-from importlib.metadata import PackageNotFoundError, version
+from importlib.metadata import Distribution, distributions, requires
 from importlib.resources import files
-from importlib.resources.abc import Traversable
+from importlib.util import find_spec
+from pathlib import Path
 
-_PACKAGES = ("rockshape", "synth")
-_OWN = (
-    "units.py",
-    "views.py",
-    "work.py",
-    "records.py",
-    "match.py",
-    "truth.py",
-    "pictures.py",
-    "portraits.py",
-    "store.py",
-    "measures",
-    "segments",
-    "design/places.py",
-    "design/unit.py",
+PACKAGES = ("rockshape", "synth", "validation")
+# Folders and files that no worker loads; tests hold that to be so.
+LEFT_OUT = frozenset(
+    {
+        "rockshape/cli.py",
+        "rockshape/commands",
+        "rockshape/report",
+        "synth/cli.py",
+        "validation/agreement",
+        "validation/cli.py",
+        "validation/mutations",
+        "validation/paper",
+        "validation/report",
+        "validation/scores",
+        "validation/suites",
+    }
 )
-_DISTRIBUTIONS = (
-    "arcade-pyrender",
-    "embreex",
-    "numpy",
-    "opencv-python-headless",
-    "pandas",
-    "pillow",
-    "scikit-image",
-    "scipy",
-    "trimesh",
-)
+_NAME = re.compile(r"[A-Za-z0-9._-]+")
+_GROUP_PREFIX = "rockshape."  # of the entry points by which others add to the packages
 
 
-def _add(digest: "hashlib._Hash", path: Traversable, name: str) -> None:
-    if path.is_dir():
-        for child in sorted(path.iterdir(), key=lambda each: each.name):
-            if child.name != "__pycache__":
-                _add(digest, child, f"{name}/{child.name}")
-    elif path.is_file():
-        digest.update(name.encode() + b"\0" + path.read_bytes())
+def loadable_files(root: Path, *, left_out: Collection[str]) -> Iterator[tuple[str, Path]]:
+    """Yield (name, path) of each file under a package's folder, in the order of the names.
+
+    A name is the package's and the path within it, `rockshape/errors.py`; `left_out` names files
+    and folders.
+    """
+    for path in sorted(root.rglob("*")):
+        name = path.relative_to(root.parent)
+        parts = [name, *name.parents]
+        loadable = path.is_file() and "__pycache__" not in name.parts
+        if loadable and not any(part.as_posix() in left_out for part in parts):
+            yield name.as_posix(), path
 
 
-def _version(name: str) -> str:
-    try:
-        return version(name)
-    except PackageNotFoundError:
-        return "none"
+def tree_digest(roots: Collection[Path], *, left_out: Collection[str] = LEFT_OUT) -> str:
+    """Return the SHA-256 of the names and contents of the packages' files."""
+    digest = hashlib.sha256()
+    for root in roots:
+        for name, path in loadable_files(root, left_out=left_out):
+            digest.update(name.encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()
+
+
+def _required() -> set[str]:
+    """Return the names of the distributions that ours needs at run time."""
+    found = (_NAME.match(text) for text in requires("rockshape") or () if "extra ==" not in text)
+    return {_normal(match.group()) for match in found if match}
+
+
+def _normal(name: str) -> str:
+    return re.sub(r"[-_.]+", "-", name).lower()
+
+
+def _plugins(distribution: Distribution) -> set[str]:
+    """Return the top-level modules by which a distribution adds to the packages."""
+    if _normal(distribution.metadata["Name"]) == "rockshape":
+        return set()
+    points = distribution.entry_points
+    return {p.module.partition(".")[0] for p in points if p.group.startswith(_GROUP_PREFIX)}
+
+
+def _sources(module: str) -> Iterator[bytes]:
+    """Yield what a top-level module or package consists of, installed or editable."""
+    spec = find_spec(module)
+    if spec is None:
+        return
+    if spec.submodule_search_locations:
+        yield tree_digest([Path(each) for each in spec.submodule_search_locations]).encode()
+    elif spec.origin:
+        yield Path(spec.origin).read_bytes()
+
+
+def _installed() -> Iterator[bytes]:
+    """Yield the versions of what we need, and of the plug-ins their sources too."""
+    needed = _required()
+    for distribution in sorted(distributions(), key=lambda each: _normal(each.metadata["Name"])):
+        name, plugins = _normal(distribution.metadata["Name"]), _plugins(distribution)
+        if name in needed or plugins:
+            yield f"{name} {distribution.version}\n".encode()
+        for module in sorted(plugins):
+            yield from _sources(module)
 
 
 @cache
 def code_digest() -> str:
-    """Return a hash of the sources and of the versions that can move a unit's result.
-
-    Scores, gates and report do not count: they are made anew from the results every time.
-    """
+    """Return a hash of the files and versions that can change a unit's result."""
     digest = hashlib.sha256(platform.python_version().encode())
-    for package in _PACKAGES:
-        _add(digest, files(package), package)
-    for name in _OWN:
-        _add(digest, files("validation") / name, f"validation/{name}")
-    for name in _DISTRIBUTIONS:
-        digest.update(f"{name} {_version(name)}\n".encode())
+    roots = [Path(str(files(package))) for package in PACKAGES]
+    digest.update(tree_digest(roots).encode())
+    for part in _installed():
+        digest.update(part)
     return digest.hexdigest()

@@ -1,0 +1,72 @@
+"""The code's fingerprint: what changes it, and that a worker loads nothing that it leaves out."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from validation.code import LEFT_OUT, PACKAGES, code_digest, tree_digest
+
+ROOT = Path(__file__).parents[2]
+WORKER = """
+import sys
+from validation.suite import load_suite
+from validation.dispatch import run_packed
+from validation.units import units_of
+run_packed(units_of(load_suite("shapes-roundness"))[0])
+print("\\n".join(sys.modules))
+"""
+
+
+@pytest.fixture
+def package(tmp_path) -> Path:
+    root = tmp_path / "measure"
+    (root / "report").mkdir(parents=True)
+    (root / "formula.py").write_text("x = 1\n")
+    (root / "weights.csv").write_text("1,2\n")
+    (root / "report" / "page.py").write_text("page = 1\n")
+    return root
+
+
+def _digest(root: Path) -> str:
+    return tree_digest([root], left_out={"measure/report"})
+
+
+def test_a_rename_changes_the_key(package) -> None:
+    before = _digest(package)
+    (package / "formula.py").rename(package / "formulae.py")
+    assert _digest(package) != before
+
+
+@pytest.mark.parametrize("name", ["formula.py", "weights.csv", "added.py"])
+def test_code_data_and_new_files_change_the_key(package, name) -> None:
+    before = _digest(package)
+    (package / name).write_text("x = 2\n")
+    assert _digest(package) != before
+
+
+def test_a_report_edit_does_not_change_the_key(package) -> None:
+    before = _digest(package)
+    (package / "report" / "page.py").write_text("page = 2\n")
+    (package / "__pycache__").mkdir()
+    (package / "__pycache__" / "formula.cpython-311.pyc").write_bytes(b"1")
+    assert _digest(package) == before
+
+
+def test_all_that_is_left_out_exists() -> None:
+    assert [name for name in LEFT_OUT if not (ROOT / name).exists()] == []
+    assert code_digest() != tree_digest([ROOT / package for package in PACKAGES])
+
+
+def test_no_worker_imports_what_is_left_out() -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", WORKER], capture_output=True, text=True, check=True, cwd=ROOT
+    )
+    left_out = {name.removesuffix(".py").replace("/", ".") for name in LEFT_OUT}
+    loaded = [
+        module
+        for module in done.stdout.split()
+        if any(module == name or module.startswith(name + ".") for name in left_out)
+    ]
+    assert loaded == []

@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 from silhouettes import REPORTED_FROM, fill, turned
 
-from rockshape.ellipse import fit_ellipse
-from rockshape.ellipse_arc import fit_arc
-from rockshape.outline_edge import trace_edge
+from rockshape.ellipse.arc import fit_arc
+from rockshape.ellipse.direct import fit_ellipse
+from rockshape.outline.edge import trace_edge
 
 RATIO = 0.6
 FITS = {"direct": fit_ellipse, "hyper": fit_arc}

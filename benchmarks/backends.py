@@ -17,11 +17,11 @@ from tempfile import TemporaryDirectory
 import cv2
 import numpy as np
 
-from synth.dataset import depth_scale_mm, encode_depth
+from synth.dataset.write import depth_scale_mm, encode_depth
 from synth.light import light_scene
 from synth.render import open_renderer, render_view
-from synth.render.choice import BACKENDS, has_backend
-from synth.scene import build_scene
+from synth.render.backends import BACKENDS, has_backend
+from synth.scene.scene import build_scene
 from synth.spec import SceneSpec, convert_spec
 
 SCENES = [

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from synth.camera import Camera, Pose
+from synth.camera.camera import Camera, Pose
 from synth.light import Stage
 from synth.light.photometry import towards_sun
 from synth.light.rays import directions

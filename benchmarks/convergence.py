@@ -11,12 +11,12 @@ from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 from scipy.stats import spearmanr
 
-from synth.box import nearby_box
-from synth.outlines import Form, Outline, SuperellipsoidForm, mesh_form, plane_across
-from synth.outlines.silhouette import BEARINGS
-from synth.outlines.smooth import DIRECTIONS
+from synth.geometry.min_volume_box import nearby_box
 from synth.rocks import Rock, quarry
 from synth.rocks.ellipsoid import ellipsoid
+from synth.rocks.outlines import Form, Outline, SuperellipsoidForm, mesh_form, plane_across
+from synth.rocks.outlines.silhouette import BEARINGS
+from synth.rocks.outlines.smooth import DIRECTIONS
 from synth.rocks.realistic import Realism, realistic
 from synth.rocks.relief import with_relief
 from synth.rocks.scan import scan

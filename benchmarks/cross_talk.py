@@ -4,9 +4,9 @@ import argparse
 
 import numpy as np
 
-from synth.box import spread_directions
-from synth.outlines import mesh_form, plane_across
+from synth.geometry.min_volume_box import spread_directions
 from synth.rocks import Rock, quarry
+from synth.rocks.outlines import mesh_form, plane_across
 from synth.spec.rocks import RocksSpec
 
 TURNED = {

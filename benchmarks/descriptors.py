@@ -14,7 +14,7 @@ from scipy.special import ellipe
 from silhouettes import REPORTED_FROM, fill, turned
 from skimage.measure import regionprops
 
-from rockshape.descriptors import describe
+from rockshape.outline.descriptors import describe
 
 SIZES = (10, 20, 30, 60, 100, 200, 500, 1000)
 TURNS = 8

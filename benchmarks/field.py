@@ -16,12 +16,12 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from synth import dataset
+from synth.dataset import write as dataset
 from synth.light import light_scene
-from synth.population import expected_count
 from synth.render import choose_backend, open_renderer, render_view
 from synth.render.view import depth_limits_m
-from synth.scene import Scene, build_scene
+from synth.scene.population import expected_count
+from synth.scene.scene import Scene, build_scene
 from synth.spec import RendererName, SceneSpec, convert_spec
 from synth.spec.population import PopulationSpec
 

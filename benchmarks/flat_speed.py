@@ -21,7 +21,6 @@ from numpy.typing import NDArray
 from silhouettes import REPORTED_FROM, draw
 from skimage.measure import regionprops
 
-from rockshape.descriptors import describe
 from rockshape.measures import (
     angularity_2d,
     axis_ratio,
@@ -29,7 +28,8 @@ from rockshape.measures import (
     roundness,
     sphericity_2d,
 )
-from rockshape.rock_view import RockView
+from rockshape.outline.descriptors import describe
+from rockshape.rock.view import RockView
 
 # module, its function that takes a mask, and of what type
 PEERS = {

@@ -15,12 +15,13 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from rockshape import pipeline, rock_view, segmentation
+from rockshape import pipeline, segmentation
 from rockshape.io import read_camera, read_image, read_range
+from rockshape.measurement import to_frame
 from rockshape.measures import METHODS, Measure
 from rockshape.observation import Observation
-from rockshape.table import to_frame
-from synth.dataset import write_common, write_scene
+from rockshape.rock import view as rock_view
+from synth.dataset.write import write_common, write_scene
 from synth.render import choose_backend
 from synth.spec import SceneSpec
 from synth.spec.rocks import RocksSpec

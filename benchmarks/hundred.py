@@ -24,11 +24,11 @@ from silhouettes import REPORTED_FROM, draw
 OURS = """
 import csv, dataclasses, sys
 import cv2
-from rockshape.descriptors import describe_smooth
+from rockshape.outline.descriptors import describe_smooth
 from rockshape.measures import (
     angularity_2d, axis_ratio, ellipse_error, roundness, sphericity_2d)
-from rockshape.patches import find_patches
-from rockshape.rock_view import RockView
+from rockshape.rock.patches import find_patches
+from rockshape.rock.view import RockView
 modules = (axis_ratio, ellipse_error, sphericity_2d, angularity_2d, roundness)
 measures = [m.PAPER for m in modules[:4]] + [m.ROBUST for m in modules]
 labels = cv2.imread(sys.argv[1], cv2.IMREAD_UNCHANGED)

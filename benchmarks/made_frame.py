@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.camera import Camera
+from rockshape.camera.camera import Camera
 
 PIXEL_M = 0.001  # on the ground
 NOISE_M = 0.0003

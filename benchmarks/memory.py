@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from synth.dataset import write_scene
+from synth.dataset.write import write_scene
 from synth.render import choose_backend
 from synth.spec import SceneSpec
 from synth.spec.view import CameraSpec, ViewsSpec

@@ -3,8 +3,8 @@
 import argparse
 import sys
 
-from validation.mutations import MUTATIONS, prepare_bench
-from validation.suite import Suite, load_suite
+from validation.selfcheck.mutations import MUTATIONS, prepare_bench
+from validation.suite.suite import Suite, load_suite
 
 
 def table(suite: Suite, method: str, *, scenes: int) -> bool:

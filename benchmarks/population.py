@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from scipy.stats import poisson
 
 from synth.errors import InputError
-from synth.population import covered_share, draw_diameters_m, expected_count, number_per_m2
-from synth.scene import build_scene
+from synth.scene.population import covered_share, draw_diameters_m, expected_count, number_per_m2
+from synth.scene.scene import build_scene
 from synth.spec import SceneSpec
 from synth.spec.population import PopulationSpec
 from synth.spec.rocks import RocksSpec

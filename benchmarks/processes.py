@@ -15,8 +15,8 @@ from collections import defaultdict
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from synth import generate
-from synth.dataset import write_scene
+from synth.dataset import generate
+from synth.dataset.write import write_scene
 from synth.render import choose_backend
 from synth.spec import RendererName, SceneSpec
 

@@ -24,7 +24,7 @@ from rockshape.measures import (
     sphericity_2d,
 )
 from rockshape.measures.measure import Measure
-from rockshape.rock_view import RockView
+from rockshape.rock.view import RockView
 
 SIZES = (30, 40, 60, 100, 200, 500, 1000)
 COUNT = 6

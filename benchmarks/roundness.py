@@ -17,12 +17,12 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 from silhouettes import REPORTED_FROM, draw, fill, turned
 
-from rockshape.outline_edge import trace_edge
-from rockshape.outline_even import pixel_smooth
-from rockshape.roundness import wadell_roundness
-from synth.outlines import RoundedHull
-from synth.outlines.record import plane_across
+from rockshape.outline.edge import trace_edge
+from rockshape.outline.resample import pixel_smooth
+from rockshape.outline.roundness import wadell_roundness
 from synth.rocks import quarry
+from synth.rocks.outlines import RoundedHull
+from synth.rocks.outlines.record import plane_across
 from synth.spec.rocks import RocksSpec
 
 try:

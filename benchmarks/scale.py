@@ -11,13 +11,13 @@ import msgspec
 import numpy as np
 import pandas as pd
 
-from validation.dispatch import dispatch, run_packed
-from validation.executors import local
-from validation.run import prepare
-from validation.scores import score_values
-from validation.store import UnitStore, unit_key
-from validation.suite import Suite, load_suite
-from validation.units import Unit, units_of
+from validation.execution.dispatch import dispatch, run_packed
+from validation.execution.executors import local
+from validation.execution.run import prepare
+from validation.execution.store import UnitStore, unit_key
+from validation.execution.units import Unit, units_of
+from validation.kinds.scoring import score_values
+from validation.suite.suite import Suite, load_suite
 
 COPIES = 250  # of the scenes measured, to see how scoring grows
 

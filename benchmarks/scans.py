@@ -12,13 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 from solids import measured, rock_views
 
-from rockshape.camera import Camera
+from rockshape.camera.camera import Camera
 from rockshape.ellipsoid import fit_ellipsoid
 from rockshape.measures.sphericity_3d import sphericity_3d
+from synth.geometry.mesh import Mesh
 from synth.light import light_scene
-from synth.mesh import Mesh
 from synth.render import choose_backend, open_renderer, render_view
-from synth.scene import build_scene
+from synth.scene.scene import build_scene
 from synth.sensor import capture_view
 from synth.spec import SceneSpec
 from synth.spec.rocks import RocksSpec

@@ -21,12 +21,12 @@ from matplotlib import pyplot as plt
 from rockshape.ground import fit_ground
 from rockshape.io import read_camera, read_image, read_range
 from rockshape.observation import Observation
-from rockshape.outline import trace_outline
+from rockshape.outline.trace import trace_outline
 from rockshape.segmentation import Segmentation, segment
-from rockshape.segmentation.lightness import read_lightness
-from rockshape.segmentation.relief import relief_of, standing
-from rockshape.segmentation.segment import find_by_range, pixel_rad
-from synth.dataset import write_common, write_scene
+from rockshape.segmentation.by_image.ground_appearance import read_lightness
+from rockshape.segmentation.by_range.height_signal import relief_of, standing
+from rockshape.segmentation.robust import find_by_range, pixel_rad
+from synth.dataset.write import write_common, write_scene
 from synth.render import choose_backend
 from synth.spec import convert_spec
 

@@ -19,13 +19,13 @@ from numpy.typing import NDArray
 from rockshape.io import read_camera, read_image, read_range
 from rockshape.observation import Observation
 from rockshape.segmentation import segment
-from synth.dataset import write_common, write_scene
+from synth.dataset.write import write_common, write_scene
 from synth.render import choose_backend
-from validation.experiments import SegmentationExperiment
-from validation.scores.segmentation import f1
-from validation.segments.unit import draw
-from validation.suite import load_suite
-from validation.truth import read_instances
+from validation.kinds.segmentation.scores import f1
+from validation.kinds.segmentation.work import draw
+from validation.records.truth import read_instances
+from validation.suite.experiments import SegmentationExperiment
+from validation.suite.suite import load_suite
 
 SERIES = ("robust-exact", "robust-stereo", "robust-sgm", "robust-none")
 FEWEST = 5  # rocks that count in a view

@@ -15,11 +15,11 @@ import numpy as np
 from rockshape.io import read_camera, read_image, read_range
 from rockshape.observation import Observation
 from rockshape.pipeline import measure
-from synth.dataset import write_common, write_scene
+from synth.dataset.write import write_common, write_scene
 from synth.render import choose_backend
-from validation.experiments import SegmentationExperiment
-from validation.suite import load_suite
-from validation.truth import read_instances
+from validation.records.truth import read_instances
+from validation.suite.experiments import SegmentationExperiment
+from validation.suite.suite import load_suite
 
 SEEDS = {"sparse": 50_000, "crowded": 50_100, "slope": 50_300}
 LEAST_IOU = 0.5

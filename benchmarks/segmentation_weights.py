@@ -2,9 +2,9 @@
 
 The scenes are those of the suite `segmentation` with other seeds. Every outline proposed from the
 image is held against the true masks; the weights are a ridge regression of the overlap with the
-best rock on a quadratic form of the features. `--out rockshape/segmentation/weights.py` writes
-them, which takes half an hour; `--check` fits on every other scene and prints how well the rest is
-told.
+best rock on a quadratic form of the features. `--out FILE.py` writes them, which takes half an hour
+(the file is `rockshape/segmentation/by_image/proposal_weights.py`); `--check` fits on every other
+scene and prints how well the rest is told.
 """
 
 import argparse
@@ -18,15 +18,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.io import read_image
-from rockshape.segmentation.fill import inside_of
-from rockshape.segmentation.lightness import read_lightness
-from rockshape.segmentation.likely import features_of
-from rockshape.segmentation.stars import propose
-from synth.dataset import write_scene
+from rockshape.segmentation.by_image.ground_appearance import read_lightness
+from rockshape.segmentation.by_image.proposal_score import features_of
+from rockshape.segmentation.by_image.star_proposals import propose
+from rockshape.segmentation.polygon_fill import inside_of
+from synth.dataset.write import write_scene
 from synth.render import choose_backend
-from validation.experiments import SegmentationExperiment
-from validation.suite import load_suite
-from validation.truth import read_instances
+from validation.records.truth import read_instances
+from validation.suite.experiments import SegmentationExperiment
+from validation.suite.suite import load_suite
 
 Floats = NDArray[np.float64]
 

@@ -15,20 +15,20 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import kendalltau
 
-from rockshape.camera import Camera
+from rockshape.camera.camera import Camera
 from rockshape.ground import fit_plane
+from rockshape.ground.pixel_noise import estimate_range_noise
 from rockshape.measures import angularity_3d, ellipsoid_error, sphericity_3d
-from rockshape.range_noise import estimate_range_noise
-from rockshape.rock_view import RockView
+from rockshape.rock.view import RockView
 from synth.light import light_scene
 from synth.render import choose_backend, open_renderer, render_view
-from synth.scene import Scene, build_scene
+from synth.rocks.truth import maximum_projection_sphericity
+from synth.scene.scene import Scene, build_scene
 from synth.sensor import capture_view
 from synth.spec import SceneSpec
 from synth.spec.rocks import RocksSpec
 from synth.spec.sensor import NoiseSpec
 from synth.spec.view import CameraSpec, ViewsSpec
-from synth.truth import maximum_projection_sphericity
 
 Floats = NDArray[np.float64]
 

@@ -22,9 +22,9 @@ from stereo_compare import GREYS, LAGS, LEAST_PIXELS, Group, Pair, Quality, comp
 
 from synth.light import light_scene
 from synth.render import choose_backend, open_renderer, render_view
-from synth.scene import build_scene
+from synth.scene.scene import build_scene
 from synth.sensor import capture_view
-from synth.sensor.holes import contrast
+from synth.sensor.occlusion import contrast
 from synth.sensor.rig import rig_of
 from synth.spec import convert_spec
 from synth.spec.sensor import NoiseSpec, SensorSpec

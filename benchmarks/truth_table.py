@@ -11,18 +11,24 @@ from embreex.rtcore_scene import EmbreeScene
 from scipy.optimize import linprog
 from scipy.spatial import ConvexHull
 
-from synth.mesh import Mesh, area_m2, covariance_m2, volume_m3
-from synth.outlines import EllipsoidForm, RoundedHull, SuperellipsoidForm, mesh_form, plane_across
-from synth.outlines.record import axis_ratio
+from synth.geometry.mesh import Mesh, area_m2, covariance_m2, volume_m3
 from synth.rocks import Rock, quarry
 from synth.rocks.ellipsoid import ellipsoid_mesh
+from synth.rocks.outlines import (
+    EllipsoidForm,
+    RoundedHull,
+    SuperellipsoidForm,
+    mesh_form,
+    plane_across,
+)
+from synth.rocks.outlines.record import axis_ratio
 from synth.rocks.polyhedron import from_half_spaces
 from synth.rocks.rounding import rounded_mesh
 from synth.rocks.sphere import SUBDIVISIONS
 from synth.rocks.superellipsoid import SUBDIVISIONS as FINER_SUBDIVISIONS
 from synth.rocks.superellipsoid import superellipsoid_mesh
+from synth.rocks.truth import half_axes_of_covariance_m
 from synth.spec.rocks import RocksSpec
-from synth.truth import half_axes_of_covariance_m
 
 FAMILIES = ("rounded-polyhedron", "rounded-box", "ellipsoid", "superellipsoid")
 ROUGH = ("perturbed", "realistic", "scan")  # whose mesh is the body

@@ -25,15 +25,15 @@ import numpy as np
 from bare import BareRenderer
 from numpy.typing import NDArray
 
-from synth import dataset
+from synth.dataset import write as dataset
+from synth.dataset.workers import ONE_THREAD
 from synth.light import light_scene
 from synth.light.painter import Painter
-from synth.render.choice import BACKENDS, has_backend
-from synth.scene import build_scene
+from synth.render.backends import BACKENDS, has_backend
+from synth.scene.scene import build_scene
 from synth.spec import RendererName, SceneSpec
 from synth.spec.rocks import RocksSpec
 from synth.spec.view import CameraSpec, ViewsSpec
-from synth.workers import ONE_THREAD
 
 _STAGES = (
     "build_scene",

@@ -6,7 +6,7 @@ submodules are imported when first asked for.
 The parts, in the order data flows through them: `io` reads files, `observation` holds an image and
 its range, `ground` and `segmentation` find the rocks, `outline`, `ellipse`, `ellipsoid` and
 `surface` fit each, `measures` turns fits into numbers, `pipeline` joins all that, `measurement`
-is what comes out, `table` and `draw` show it.
+is what comes out, with its table, and `report` shows it.
 """
 
 import lazy_loader

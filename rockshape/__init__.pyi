@@ -1,8 +1,8 @@
 from . import measures as measures
-from .arrays import measure as measure
-from .camera import Camera as Camera
-from .draw import overlay as overlay
+from .api import measure as measure
+from .camera.camera import Camera as Camera
 from .errors import InputError as InputError
 from .measurement import Measurement as Measurement
 from .measurement import Rock as Rock
 from .observation import Observation as Observation
+from .report.overlay import overlay as overlay

@@ -1,21 +1,40 @@
-"""What was measured: one record a rock, and the image they are of."""
+"""Measurement of one image: a record for each rock, and their table."""
 
+import dataclasses
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.descriptors import Descriptors
-from rockshape.ellipse import Ellipse
+from rockshape.ellipse.direct import Ellipse
 from rockshape.ellipsoid import Ellipsoid
-from rockshape.measures import Reading
+from rockshape.measures import METHODS, Reading
+from rockshape.outline.descriptors import Descriptors
 
 if TYPE_CHECKING:
     import pandas as pd
 
     from rockshape.ground import Plane
     from rockshape.segmentation import Found
+
+
+PLACE = ("rock", "row", "col", "area_px", "width_px", "height_px", "truncated", "visible_fraction")
+FLAGS = ("branch", "flags", "outline_sd_px")
+AXES = ("axis_a_m", "axis_b_m", "axis_c_m")
+# the descriptors' columns, by the fields of the record
+DESCRIPTORS = {
+    "area": "outline_area_px2",
+    "perimeter": "perimeter_px",
+    "equivalent_diameter": "equivalent_diameter_px",
+    "feret_max": "feret_max_px",
+    "feret_min": "feret_min_px",
+    "aspect_ratio": "aspect_ratio",
+    "circularity": "circularity",
+    "solidity": "solidity",
+    "convexity": "convexity",
+    "rectangularity": "rectangularity",
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,9 +85,7 @@ class Measurement:
         _freeze(self, "labels")
 
     def to_frame(self) -> "pd.DataFrame":
-        """The table, one row a rock; its columns are those of `rockshape.table.columns`."""
-        from rockshape.table import to_frame  # noqa: PLC0415 - pandas takes as long as all else
-
+        """The table, one row a rock; see `to_frame`."""
         return to_frame(self)
 
 
@@ -77,3 +94,52 @@ def _freeze(record: Rock | Measurement, name: str) -> None:
     view = getattr(record, name).view()
     view.setflags(write=False)
     object.__setattr__(record, name, view)
+
+
+def columns(method: str, *, descriptors: bool = False, flags: bool = False) -> tuple[str, ...]:
+    """The table's columns for a method, in order, and after them those that are asked for."""
+    measured = tuple(measure.column for measure in METHODS[method])
+    described = tuple(DESCRIPTORS.values()) if descriptors else ()
+    return (*PLACE, *AXES, *measured, "reason", *described, *(FLAGS if flags else ()))
+
+
+def to_frame(measurement: Measurement, *, flags: bool = False) -> "pd.DataFrame":
+    """A measurement as a table with the columns of `columns`, one row a rock.
+
+    row and col are the centroid of the rock's pixels; axis_a_m >= axis_b_m >= axis_c_m are the
+    half-axes of the fitted ellipsoid in metres. A value that cannot be measured is NaN, and
+    `reason` says why. With `flags`, branch is `range`, `image` or `labels`, flags are separated by
+    `; `, and outline_sd_px is NaN where the outline is the border of the rock's pixels.
+    """
+    import pandas as pd  # noqa: PLC0415 - it takes as long as all else
+
+    names = columns(measurement.method, descriptors=measurement.described, flags=flags)
+    told = {one.number: one for one in measurement.found}
+    rows = [
+        (*_row(rock), *(_found(told.get(rock.number)) if flags else ()))
+        for rock in measurement.rocks
+    ]
+    frame = pd.DataFrame(rows, columns=list(names))
+    return frame.astype(_types(names))
+
+
+def _found(found: "Found | None") -> tuple[str, str, float]:
+    """How a rock was found, as the columns of FLAGS."""
+    if found is None:
+        return "labels", "", np.nan
+    sd_px = np.nan if found.outline is None else found.outline.sd_px
+    return found.branch, "; ".join(found.flags), sd_px
+
+
+def _row(rock: Rock) -> tuple[object, ...]:
+    place = (rock.number, *(getattr(rock, name) for name in PLACE[1:]))
+    half_axes = [np.nan] * 3 if rock.ellipsoid is None else rock.ellipsoid.half_axes_m
+    described = () if rock.descriptors is None else dataclasses.astuple(rock.descriptors)
+    return (*place, *half_axes, *rock.values.values(), rock.reason, *described)
+
+
+def _types(names: tuple[str, ...]) -> dict[str, str]:
+    """The type of each column, so that an empty table has them too."""
+    whole = dict.fromkeys(("rock", "area_px", "width_px", "height_px"), "int64")
+    words = {name: "object" for name in ("reason", "branch", "flags") if name in names}
+    return dict.fromkeys(names, "float64") | whole | {"truncated": "bool"} | words

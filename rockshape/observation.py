@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.camera import Camera
+from rockshape.camera.camera import Camera
 from rockshape.errors import InputError
 
 if TYPE_CHECKING:
-    from rockshape.resection import Resection
+    from rockshape.camera.resection import Resection
 
 SURE_RESIDUAL_PX = 0.5  # a camera at the origin that explains the grid this well is the one
 WORST_RESIDUAL_PX = 3.0  # a grid that no camera explains better than this is not one camera's
@@ -46,7 +46,7 @@ class Observation:
             raise InputError(f"points_m: expected {expected}, found {self.points_m.shape}")
         if self.camera is None:
             # brings scipy.optimize, a fifth of a second
-            from rockshape.resection import calibrate, resect  # noqa: PLC0415
+            from rockshape.camera.resection import calibrate, resect  # noqa: PLC0415
 
             resection = calibrate(self.points_m)
             if resection is None or resection.residual_px > SURE_RESIDUAL_PX:

@@ -6,19 +6,19 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.camera import Camera
-from rockshape.descriptors import describe_smooth
-from rockshape.ellipse import Ellipse
+from rockshape.camera.camera import Camera
+from rockshape.ellipse.direct import Ellipse
 from rockshape.ellipsoid import Ellipsoid
 from rockshape.errors import InputError
+from rockshape.ground.pixel_noise import RangeNoise, estimate_range_noise
 from rockshape.measurement import Measurement, Rock
 from rockshape.measures import METHODS
 from rockshape.observation import Observation
-from rockshape.patches import Patch, find_patches
-from rockshape.range_noise import RangeNoise, estimate_range_noise
-from rockshape.rock_view import RockView
-from rockshape.threads import one_blas_thread
-from rockshape.visibility import visible_fraction
+from rockshape.outline.descriptors import describe_smooth
+from rockshape.rock.blas_threads import one_blas_thread
+from rockshape.rock.patches import Patch, find_patches
+from rockshape.rock.view import RockView
+from rockshape.rock.visibility import visible_fraction
 
 if TYPE_CHECKING:
     from rockshape.ground import Plane

@@ -7,9 +7,9 @@ from typing import get_args
 
 import msgspec
 
+from synth.dataset.generate import generate_dataset
+from synth.dataset.replay import replay_dataset
 from synth.errors import InputError
-from synth.generate import generate_dataset
-from synth.replay import replay_dataset
 from synth.shapes import NAMES, write_series
 from synth.shapes.write import JITTER_RMS_PX
 from synth.spec import MOST_SCENES, RendererName, SceneSpec, convert_spec, load_spec

@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.camera import Camera
+from rockshape.camera.camera import Camera
 from rockshape.ground import Plane
-from rockshape.rock_view import RockView
+from rockshape.rock.view import RockView
 from tests import solids
 
 UP = np.array([0.0, -0.8, -0.6])  # out of the ground, in the camera frame

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.camera import Camera
+from rockshape.camera.camera import Camera
 
 
 def disc(radius: float, *, shift: tuple[float, float] = (0, 0)) -> NDArray[np.bool_]:

@@ -14,10 +14,10 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Circle, Polygon
 from numpy.typing import NDArray
 
-from rockshape.ellipse import Ellipse, fit_ellipse
+from rockshape.ellipse.direct import Ellipse, fit_ellipse
 from rockshape.measures.sphericity_3d import sphericity_3d
-from rockshape.outline import trace_outline
-from rockshape.outline_extent import feret_diameters
+from rockshape.outline.extent import feret_diameters
+from rockshape.outline.trace import trace_outline
 from rockshape.surface import fit_surface, view_patch
 from synth.shapes.series import Shape, shape_series
 

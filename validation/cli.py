@@ -12,7 +12,8 @@ import msgspec
 from tqdm import tqdm
 
 from rockshape.measures import METHODS
-from validation.compare import (
+from validation.errors import InputError
+from validation.execution.compare import (
     MARGIN,
     REGRESSIONS,
     check_paired,
@@ -20,21 +21,20 @@ from validation.compare import (
     failed_gates,
     load_recorded,
 )
-from validation.errors import InputError
-from validation.executors import cluster, local
-from validation.gates import check_names, gates_on
-from validation.measures import Trait
-from validation.measures.adapters import ADAPTERS
-from validation.measures.parse import parse_measure, parse_rises_with, settle
+from validation.execution.executors import cluster, local
+from validation.execution.run import Run, default_jobs, prepare, run_suite
+from validation.execution.store import FOLDER, UnitStore, unit_key
+from validation.execution.units import Unit, describe, units_of
+from validation.kinds.scoring import score_names
+from validation.peers import Trait
+from validation.peers.adapters import ADAPTERS
+from validation.peers.parse import parse_measure, parse_rises_with, settle
 from validation.report import check_target, write_run
 from validation.report.comparison import comparison_markdown
+from validation.report.format import number
 from validation.report.leaderboard import leaderboard_lines
-from validation.report.words import number
-from validation.run import Run, default_jobs, prepare, run_suite
-from validation.scores import score_names
-from validation.store import FOLDER, UnitStore, unit_key
-from validation.suite import Suite, load_gates, load_suite, suite_names, with_methods
-from validation.units import Unit, describe, units_of
+from validation.suite.gates import check_names, gates_on
+from validation.suite.suite import Suite, load_gates, load_suite, suite_names, with_methods
 
 HELP = "Hold the measures to rocks of known shape and pass a verdict."
 

@@ -9,17 +9,16 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from rockshape.draw import overlay
 from rockshape.errors import InputError
 from rockshape.io import read_camera, read_image, read_labels, read_range, write_image
 from rockshape.io.files import check_writable, write_bytes
 from rockshape.io.images import LABEL_IMAGES, PICTURES
 from rockshape.io.tables import TABLES, write_table
-from rockshape.measurement import Measurement
+from rockshape.measurement import Measurement, to_frame
 from rockshape.measures import METHODS
 from rockshape.observation import Observation
 from rockshape.pipeline import measure
-from rockshape.table import to_frame
+from rockshape.report.overlay import overlay
 
 HELP = "find the rocks in an image and tell the shape of each"
 MOST_16_BITS = 2**16 - 1
@@ -153,7 +152,7 @@ def _write(
     if outputs.overlay is not None:
         write_image(outputs.overlay, overlay(observation.image, measurement))
     if outputs.report is not None:
-        from rockshape.report import render_page  # noqa: PLC0415 - brings Jinja
+        from rockshape.report.page import render_page  # noqa: PLC0415 - brings Jinja
 
         page = render_page(name, observation.image, measurement)
         write_bytes(outputs.report, page.encode())

@@ -1,9 +1,9 @@
 """Ellipsoids of the points seen on a rock: by range alone, and held by silhouette and ground."""
 
+from rockshape.ellipsoid.constrained_fit import HeldEllipsoid, Resting, fit_held_ellipsoid
 from rockshape.ellipsoid.distance import hausdorff_m, orthogonal_distance_m
 from rockshape.ellipsoid.fit import FEWEST_POINTS, EllipsoidFit, fit_ellipsoid
-from rockshape.ellipsoid.held import HeldEllipsoid, Resting, fit_held_ellipsoid
-from rockshape.ellipsoid.solid import Ellipsoid
+from rockshape.ellipsoid.half_axes import Ellipsoid
 
 __all__ = [
     "FEWEST_POINTS",

@@ -6,7 +6,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.ellipsoid.state import Bounds, State
+from rockshape.ellipsoid.parameters import Bounds, State
 
 MOST_STEPS = 500
 SETTLED = 1e-10  # relative fall of the sum of squares at which a descent has converged

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.ellipsoid.solid import Ellipsoid
+from rockshape.ellipsoid.half_axes import Ellipsoid
 
 MOST_ROUNDS = 100
 GOLDEN = (1 + 5**0.5) / 2

@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.ellipsoid.descent import descend
-from rockshape.ellipsoid.radial import Radial
-from rockshape.ellipsoid.solid import Ellipsoid
-from rockshape.ellipsoid.state import State
+from rockshape.ellipsoid.half_axes import Ellipsoid
+from rockshape.ellipsoid.parameters import State
+from rockshape.ellipsoid.radial_cost import Radial
 
 FEWEST_POINTS = 30  # nine unknowns and some to spare
 LARGEST = 3.0  # longest half-axis allowed, in sizes of the cloud: a flat face asks for infinity

@@ -13,7 +13,7 @@ from scipy.optimize import minimize
 
 from rockshape.ellipsoid.distance import hausdorff_m
 from rockshape.ellipsoid.fit import FEWEST_POINTS, EllipsoidFit, starting_states
-from rockshape.ellipsoid.solid import Ellipsoid
+from rockshape.ellipsoid.half_axes import Ellipsoid
 
 HAUSDORFF_SAMPLES = 512  # of the surface while searching
 

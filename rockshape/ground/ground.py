@@ -5,10 +5,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.ground.noise import Noise, estimate_noise
 from rockshape.ground.plane import Plane
+from rockshape.ground.range_noise import Noise, estimate_noise
 from rockshape.ground.robust import fit_inverse_depth
-from rockshape.ground.smooth import Swell, fit_swell, undulates
+from rockshape.ground.undulation import Swell, fit_swell, undulates
 
 SAMPLES = 65_536  # points the ground is fitted to: one for each 4 x 4 pixels of a large frame
 FINE_SAMPLES = 262_144  # and where it undulates

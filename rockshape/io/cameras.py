@@ -4,7 +4,7 @@ from pathlib import Path
 
 import msgspec
 
-from rockshape.camera import Camera
+from rockshape.camera.camera import Camera
 from rockshape.errors import InputError
 from rockshape.io.files import read_bytes
 

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from rockshape.errors import InputError
-from rockshape.grey import to_grey
 from rockshape.io.files import check_writable, read_bytes, write_bytes
+from rockshape.io.grey import to_grey
 
 IMAGE = "an image (PNG, JPEG or TIFF)"
 LABELS = "a label image (PNG, TIFF or NPY of whole numbers, 0 the background)"

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.camera import Camera
+from rockshape.camera.camera import Camera
 from rockshape.errors import InputError
 from rockshape.io.files import read_bytes
 from rockshape.io.images import decode

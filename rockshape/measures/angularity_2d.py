@@ -32,7 +32,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.measures.measure import Measure, Reason
-from rockshape.rock_view import RockView
+from rockshape.rock.view import RockView
 
 ALPHA = 2
 BETA = 9

@@ -31,7 +31,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.measures.measure import Measure, Reason
-from rockshape.rock_view import RockView
+from rockshape.rock.view import RockView
 from rockshape.surface import FEWEST_POINTS, Relief, Surface
 
 FEWEST_FACING = 200  # below this the value moves by more than 2 % with the grid

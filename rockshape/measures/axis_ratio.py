@@ -25,9 +25,9 @@ Source: Fox et al. (2002), section 2, Ellipse Fitting; Halíř and Flusser (1998
 and Kanazawa (2016).
 """
 
-from rockshape.ellipse import FEWEST_POINTS, Ellipse
+from rockshape.ellipse.direct import FEWEST_POINTS, Ellipse
 from rockshape.measures.measure import Measure, Reason
-from rockshape.rock_view import RockView
+from rockshape.rock.view import RockView
 
 
 def axis_ratio(ellipse: Ellipse) -> float:

@@ -30,9 +30,9 @@ Source: Fox et al. (2002), section 2, Ellipse Fitting, and figure 2.
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.ellipse import FEWEST_POINTS, Ellipse, fit_ellipse
+from rockshape.ellipse.direct import FEWEST_POINTS, Ellipse, fit_ellipse
 from rockshape.measures.measure import Measure, Reason
-from rockshape.rock_view import RockView
+from rockshape.rock.view import RockView
 
 
 def ellipse_error_px2(

@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from rockshape.ellipsoid import FEWEST_POINTS, Ellipsoid, EllipsoidFit
 from rockshape.measures.measure import Measure, Reason
-from rockshape.rock_view import RockView
+from rockshape.rock.view import RockView
 
 MOST_NOISE = 0.06  # of the mean half-axis, which is the whole range of the measure
 

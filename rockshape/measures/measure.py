@@ -6,7 +6,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from rockshape.rock_view import RockView
+from rockshape.rock.view import RockView
 
 
 class Reason(StrEnum):

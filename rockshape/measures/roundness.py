@@ -6,8 +6,8 @@ sharper than the largest circle inside. Independent of form for boxes and polygo
 Formula: (1/n) sum r_i / R: the mean radius of curvature of the n corners over the radius of the
 largest inscribed circle, a corner being where the radius is less than R. The curvature is smoothed
 by a Gaussian and each corner's radius is solved from its peak and its turning; see
-`rockshape/roundness.py`. Only `robust`: the paper has no such measure, and what it calls roundness
-rises with angularity.
+`rockshape/outline/roundness.py`. Only `robust`: the paper has no such measure, and what it calls
+roundness rises with angularity.
 
 Range and unit: 0 to 1, a pure number.
 
@@ -29,8 +29,8 @@ Source: Wadell (1932), Volume, shape, and roundness of rock particles.
 """
 
 from rockshape.measures.measure import Measure, Reason
-from rockshape.rock_view import RockView
-from rockshape.roundness import FEWEST_POINTS, wadell_roundness
+from rockshape.outline.roundness import FEWEST_POINTS, wadell_roundness
+from rockshape.rock.view import RockView
 
 
 def _read_robust(rock: RockView) -> float | Reason:

@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.measures.measure import Measure, Reason
-from rockshape.rock_view import RockView
+from rockshape.rock.view import RockView
 
 
 def sphericity_2d(outline_px: NDArray[np.float64]) -> float:

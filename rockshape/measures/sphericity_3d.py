@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from rockshape.ellipsoid import FEWEST_POINTS
 from rockshape.measures.measure import Measure
-from rockshape.rock_view import RockView
+from rockshape.rock.view import RockView
 
 
 def sphericity_3d(half_axes_m: NDArray[np.float64]) -> float:

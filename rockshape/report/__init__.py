@@ -1,5 +1,1 @@
-"""One page about one measurement: the picture and the table."""
-
-from rockshape.report.page import render_page
-
-__all__ = ["render_page"]
+"""Overlay picture and HTML page of a measurement."""

@@ -8,10 +8,9 @@ import jinja2
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.draw import overlay
-from rockshape.measurement import Measurement
+from rockshape.measurement import AXES, DESCRIPTORS, Measurement, to_frame
 from rockshape.measures import METHODS
-from rockshape.table import AXES, DESCRIPTORS, to_frame
+from rockshape.report.overlay import overlay
 
 DIGITS = 4
 

@@ -1,7 +1,7 @@
 """Where the rocks are: the published way, by heights alone, and a robust one by range and image."""
 
-from rockshape.segmentation.found import Branch, Found, Segmentation, Variant
-from rockshape.segmentation.segment import ground_under, segment
-from rockshape.segmentation.snap import Outline
+from rockshape.segmentation.edges.edge_snapping import Outline
+from rockshape.segmentation.result import Branch, Found, Segmentation, Variant
+from rockshape.segmentation.robust import ground_under, segment
 
 __all__ = ["Branch", "Found", "Outline", "Segmentation", "Variant", "ground_under", "segment"]

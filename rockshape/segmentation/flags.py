@@ -4,8 +4,8 @@ import numpy as np
 import scipy.ndimage as ndi
 from numpy.typing import NDArray
 
-from rockshape.segmentation.relief import Relief
-from rockshape.visibility import touches_border
+from rockshape.rock.visibility import touches_border
+from rockshape.segmentation.by_range.height_signal import Relief
 
 SMALL_PX = 12  # a rock narrower than this has no outline worth measuring
 HIDDEN_SHARE = 0.1  # of a rock's border along which a nearer rock stands

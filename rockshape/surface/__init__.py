@@ -1,11 +1,11 @@
 """B-spline surfaces of the points seen on a rock."""
 
 from rockshape.surface.basis import Knots
-from rockshape.surface.body import body_bends_per_m
+from rockshape.surface.ellipsoid_curvature import body_bends_per_m
 from rockshape.surface.fit import FEWEST_POINTS, NET, Surface, fit_surface
-from rockshape.surface.normal import Net
+from rockshape.surface.normal_equations import Net
 from rockshape.surface.patch import Patch, view_patch
-from rockshape.surface.relief import Relief, measure_relief
+from rockshape.surface.residual_curvature import Relief, measure_relief
 
 __all__ = [
     "FEWEST_POINTS",

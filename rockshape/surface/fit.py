@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from rockshape.surface.basis import Knots, evaluate
 from rockshape.surface.gcv import best_smoothing
-from rockshape.surface.normal import (
+from rockshape.surface.normal_equations import (
     Net,
     bending,
     factorise,

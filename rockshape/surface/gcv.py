@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.surface.normal import factorise
+from rockshape.surface.normal_equations import factorise
 
 LEAST, MOST = 1e-3, 1.0  # of the length at which penalty and data weigh alike
 STEPS = 13  # of the first search, evenly in the logarithm

@@ -1,7 +1,7 @@
 """Light: what the camera sees of a scene under the sun and the sky."""
 
 from synth.light.body import Body
-from synth.light.lit import light_scene
-from synth.light.stage import Stage
+from synth.light.light_scene import light_scene
+from synth.light.lit_scene import Stage
 
 __all__ = ["Body", "Stage", "light_scene"]

@@ -10,14 +10,14 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.camera import Camera, Pose
+from synth.camera.camera import Camera, Pose
+from synth.geometry.mesh import Floats
 from synth.light.albedo import Albedo
 from synth.light.body import Body
 from synth.light.photometry import EXPOSURE, SKY, light, towards_sun
 from synth.light.rays import Surfaces, directions
 from synth.light.samples import Samples, stretch, width_m
 from synth.light.shade import ShadowMap
-from synth.mesh import Floats
 from synth.spec.surface import SurfaceSpec
 from synth.spec.view import SunSpec
 

@@ -8,7 +8,7 @@ from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 
-from synth.camera import Camera, Pose, undistorted
+from synth.camera.camera import Camera, Pose, undistorted
 from synth.light.body import Body
 
 Singles = NDArray[np.float32]

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.camera import Camera
+from synth.camera.camera import Camera
 
 Singles = NDArray[np.float32]
 Indices = NDArray[np.int64]

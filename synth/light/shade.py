@@ -6,8 +6,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from synth.geometry.mesh import Floats
 from synth.light.body import Body
-from synth.mesh import Floats
 
 Singles = NDArray[np.float32]
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.camera import Camera, Pose
+from synth.camera.camera import Camera, Pose
 from synth.light import Stage
 from synth.light.rays import Surfaces, directions
 

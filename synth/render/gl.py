@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from OpenGL import contextdata
 from pyrender.constants import GLTF, RenderFlags
 
-from synth.camera import Camera, Pose
+from synth.camera.camera import Camera, Pose
 from synth.light import Body, Stage
 
 # pyrender collects garbage whenever a context is deleted; the imported modules, which stay, need

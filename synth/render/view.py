@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.camera import Camera, Pose, border_rays, project
+from synth.camera.camera import Camera, Pose, border_rays, project
 from synth.light import Stage
 from synth.render.interface import Renderer
 from synth.render.silhouettes import Silhouettes

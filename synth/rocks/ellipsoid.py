@@ -4,11 +4,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import elliprg
 
-from synth.mesh import Mesh
-from synth.outlines import EllipsoidForm
+from synth.geometry.mesh import Mesh
+from synth.rocks.outlines import EllipsoidForm
 from synth.rocks.record import Rock
 from synth.rocks.sphere import SUBDIVISIONS, unit_sphere
-from synth.truth import Truth
+from synth.rocks.truth import Truth
 
 Floats = NDArray[np.float64]
 

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 
 from synth.errors import InputError
-from synth.inball import largest_ball
+from synth.geometry.inscribed_ball import largest_ball
 
 Floats = NDArray[np.float64]
 

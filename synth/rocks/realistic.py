@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
-from synth.mesh import Mesh, centroid_m, vertex_normals
+from synth.geometry.mesh import Mesh, centroid_m, vertex_normals
 from synth.rocks.record import Rock
 from synth.rocks.relief import boxed, displaced
 from synth.rocks.sphere import unit_sphere

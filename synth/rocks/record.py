@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from synth.mesh import Mesh
-from synth.outlines import Form
-from synth.truth import Truth
+from synth.geometry.mesh import Mesh
+from synth.rocks.outlines import Form
+from synth.rocks.truth import Truth
 
 
 @dataclass(frozen=True, eq=False)

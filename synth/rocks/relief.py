@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.box import smallest_box
 from synth.errors import InputError
-from synth.mesh import (
+from synth.geometry.mesh import (
     Mesh,
     area_m2,
     centroid_m,
@@ -16,11 +15,12 @@ from synth.mesh import (
     vertex_normals,
     volume_m3,
 )
-from synth.outlines import RoundedHull
+from synth.geometry.min_volume_box import smallest_box
+from synth.rocks.outlines import RoundedHull
 from synth.rocks.record import Rock
 from synth.rocks.resample import even_mesh
 from synth.rocks.sphere import SUBDIVISIONS, band_limited
-from synth.truth import Truth, half_axes_of_covariance_m
+from synth.rocks.truth import Truth, half_axes_of_covariance_m
 
 Floats = NDArray[np.float64]
 

@@ -6,9 +6,9 @@ from numpy.typing import NDArray
 from trimesh.ray.ray_pyembree import RayMeshIntersector
 
 from synth.errors import InputError
-from synth.mesh import Mesh, vertex_normals
-from synth.outlines import EllipsoidForm, SuperellipsoidForm
+from synth.geometry.mesh import Mesh, vertex_normals
 from synth.rocks.ellipsoid import ellipsoid_mesh
+from synth.rocks.outlines import EllipsoidForm, SuperellipsoidForm
 from synth.rocks.record import Rock
 from synth.rocks.sphere import unit_sphere
 from synth.rocks.superellipsoid import superellipsoid_mesh

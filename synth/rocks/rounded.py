@@ -3,10 +3,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.box import nearby_box, smallest_box
-from synth.mesh import centroid_m
-from synth.outlines import RoundedHull
+from synth.geometry.mesh import centroid_m
+from synth.geometry.min_volume_box import nearby_box, smallest_box
 from synth.rocks.moments import rounded_moments
+from synth.rocks.outlines import RoundedHull
 from synth.rocks.polyhedron import (
     Polyhedron,
     cuboid,
@@ -15,7 +15,7 @@ from synth.rocks.polyhedron import (
 )
 from synth.rocks.record import Rock
 from synth.rocks.rounding import rounded_area_m2, rounded_mesh, rounded_volume_m3
-from synth.truth import Truth, half_axes_of_covariance_m
+from synth.rocks.truth import Truth, half_axes_of_covariance_m
 
 Floats = NDArray[np.float64]
 

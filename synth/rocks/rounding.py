@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.mesh import Mesh
+from synth.geometry.mesh import Mesh
 from synth.rocks.polyhedron import Functionals, Polyhedron, angle_rad
 
 Floats = NDArray[np.float64]

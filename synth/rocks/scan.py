@@ -9,7 +9,7 @@ import numpy as np
 import trimesh
 
 from synth.errors import InputError
-from synth.mesh import Mesh, area_m2, centroid_m, vertex_normals, volume_m3
+from synth.geometry.mesh import Mesh, area_m2, centroid_m, vertex_normals, volume_m3
 from synth.rocks.record import Rock
 from synth.rocks.relief import boxed
 

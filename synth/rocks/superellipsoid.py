@@ -3,11 +3,11 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.mesh import Mesh
-from synth.outlines import SuperellipsoidForm
+from synth.geometry.mesh import Mesh
+from synth.rocks.outlines import SuperellipsoidForm
 from synth.rocks.record import Rock
 from synth.rocks.sphere import unit_sphere
-from synth.truth import Truth
+from synth.rocks.truth import Truth
 
 Floats = NDArray[np.float64]
 

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.camera import Camera, Pose, right_eye
+from synth.camera.camera import Camera, Pose, right_eye
 from synth.light import Stage
 from synth.render.interface import Renderer
 from synth.render.view import View, render_light
-from synth.sensor.picture import Picture, eight_bits, take_picture
+from synth.sensor.exposure import Picture, eight_bits, take_picture
 from synth.sensor.rectify import Bytes, Rectification, rectification_of
 from synth.sensor.rig import rig_of
 from synth.sensor.seeds import Use, stream

@@ -7,7 +7,15 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.camera import Camera, Floats, Reals, border_rays, distorted, pixel_rays, undistorted
+from synth.camera.camera import (
+    Camera,
+    Floats,
+    Reals,
+    border_rays,
+    distorted,
+    pixel_rays,
+    undistorted,
+)
 
 Bytes = NDArray[np.uint8]
 Mask = NDArray[np.bool_]

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.camera import PRESETS
+from synth.camera.camera import PRESETS
 from synth.errors import InputError
 
 Floats = NDArray[np.float64]

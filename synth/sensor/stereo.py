@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.sensor.holes import contrast, half_occluded
+from synth.sensor.occlusion import contrast, half_occluded
 from synth.sensor.rectify import Rectification
 from synth.sensor.rig import Rig
 from synth.spec.sensor import NoiseSpec

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 from skimage.draw import polygon as polygon_pixels
 
+from synth.dataset.files import write_png
 from synth.errors import InputError
-from synth.files import write_png
 from synth.shapes.outline import axis_ratio
 from synth.shapes.series import CHART, Shape, shape_series
 from synth.shapes.svg import svg_text

@@ -13,10 +13,10 @@ import tifffile
 
 from rockshape.cli import main
 from rockshape.io import read_image, read_labels
+from rockshape.measurement import DESCRIPTORS, columns, to_frame
 from rockshape.measures import METHODS
 from rockshape.observation import Observation
 from rockshape.pipeline import measure
-from rockshape.table import DESCRIPTORS, columns, to_frame
 from tests.paths import GRAINS_IMAGE, GRAINS_LABELS, MARS_IMAGE, MARS_RANGE
 
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.special import ellipe
 from skimage.measure import regionprops
 
-from rockshape.descriptors import describe, describe_outline
+from rockshape.outline.descriptors import describe, describe_outline
 from tests import solids
 
 

@@ -5,11 +5,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from skimage.measure import regionprops
 
-from rockshape.ellipse import Ellipse, fit_ellipse
-from rockshape.ellipse_arc import fit_arc
-from rockshape.ellipse_moments import moment_ellipse
-from rockshape.outline import trace_outline
-from rockshape.outline_edge import trace_edge
+from rockshape.ellipse.arc import fit_arc
+from rockshape.ellipse.direct import Ellipse, fit_ellipse
+from rockshape.ellipse.moments import moment_ellipse
+from rockshape.outline.edge import trace_edge
+from rockshape.outline.trace import trace_outline
 from tests import solids
 
 undetermined = pytest.mark.parametrize(

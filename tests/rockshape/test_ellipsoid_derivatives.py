@@ -7,14 +7,14 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from rockshape.ellipsoid.radial import CHUNK, Radial
-from rockshape.ellipsoid.rays import (
+from rockshape.ellipsoid.parameters import State, turn
+from rockshape.ellipsoid.radial_cost import CHUNK, Radial
+from rockshape.ellipsoid.residuals import (
     Linearised,
     lowest_point,
     points_to_surface,
     rays_to_silhouette,
 )
-from rockshape.ellipsoid.state import State, turn
 
 FREE = (-9.0, 9.0)
 STATE = State(

@@ -5,9 +5,8 @@ import pytest
 from scipy.ndimage import binary_fill_holes, label
 from skimage.measure import find_contours
 
-from rockshape.outline import signed_area, trace_outline
-from rockshape.outline_edge import edge_of, trace_edge
-from rockshape.outline_even import (
+from rockshape.outline.edge import edge_of, trace_edge
+from rockshape.outline.resample import (
     canonical,
     even_outline,
     form_outline,
@@ -15,6 +14,7 @@ from rockshape.outline_even import (
     pixel_smooth,
     smooth_evenly,
 )
+from rockshape.outline.trace import signed_area, trace_outline
 from tests import solids
 
 

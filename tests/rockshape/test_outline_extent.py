@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.spatial import ConvexHull
 
-from rockshape.outline import signed_area
-from rockshape.outline_extent import convex_hull, feret_diameters, smallest_rectangle
+from rockshape.outline.extent import convex_hull, feret_diameters, smallest_rectangle
+from rockshape.outline.trace import signed_area
 from tests import solids
 
 clouds = arrays(np.float64, st.tuples(st.integers(3, 30), st.just(2)), elements=st.floats(-9, 9))

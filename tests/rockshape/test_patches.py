@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 import scipy.ndimage as ndi
 
-from rockshape.patches import find_patches
+from rockshape.rock.patches import find_patches
 
 SHAPE = (37, 53)
 

@@ -5,15 +5,14 @@ import pandas as pd
 import pytest
 from scipy.spatial.transform import Rotation
 
-from rockshape.descriptors import Descriptors
-from rockshape.draw import overlay
 from rockshape.errors import InputError
 from rockshape.io import read_image, read_labels, read_range
-from rockshape.measurement import Measurement
+from rockshape.measurement import DESCRIPTORS, Measurement, columns, to_frame
 from rockshape.measures import METHODS, PAPER
 from rockshape.observation import Observation
+from rockshape.outline.descriptors import Descriptors
 from rockshape.pipeline import measure
-from rockshape.table import DESCRIPTORS, columns, to_frame
+from rockshape.report.overlay import overlay
 from tests import solids
 from tests.paths import GRAINS_IMAGE, GRAINS_LABELS, MARS_IMAGE, MARS_RANGE
 

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from rockshape.ground import fit_plane
-from rockshape.range_noise import RangeNoise, estimate_range_noise
+from rockshape.ground.pixel_noise import RangeNoise, estimate_range_noise
 from tests import solids
 
 NORMAL = np.array([0.0, -0.8, -0.6])

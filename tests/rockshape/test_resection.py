@@ -2,11 +2,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from rockshape.camera import Camera
+from rockshape.camera.camera import Camera
+from rockshape.camera.resection import resect
 from rockshape.errors import InputError
 from rockshape.io import read_image, read_range
 from rockshape.observation import Observation
-from rockshape.resection import resect
 from tests import solids
 from tests.paths import MARS_IMAGE, MARS_RANGE
 

@@ -5,9 +5,9 @@ import pytest
 from matplotlib.path import Path
 from scipy.spatial import Delaunay
 
-from rockshape.outline_edge import trace_edge
-from rockshape.outline_even import even_outline, pixel_smooth
-from rockshape.roundness import inscribed_radius, smooth_curvature, wadell_roundness
+from rockshape.outline.edge import trace_edge
+from rockshape.outline.resample import even_outline, pixel_smooth
+from rockshape.outline.roundness import inscribed_radius, smooth_curvature, wadell_roundness
 from tests import solids
 
 

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from rockshape.camera import Camera
-from rockshape.silhouette import grazing_rays
+from rockshape.camera.camera import Camera
+from rockshape.camera.silhouette import grazing_rays
 
 CAMERA = Camera(fx=100.0, fy=100.0, cx=9.5, cy=9.5, width=20, height=20)
 

@@ -3,7 +3,7 @@ import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
 import rockshape
-from rockshape.threads import one_blas_thread
+from rockshape.rock.blas_threads import one_blas_thread
 from tests.rocks import lumpy_rock
 
 

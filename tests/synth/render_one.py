@@ -6,14 +6,14 @@ from pathlib import Path
 
 import numpy as np
 
-from synth.camera import Camera
-from synth.ground import make_ground
+from synth.camera.camera import Camera
+from synth.camera.trajectories import ring
+from synth.geometry.mesh import Mesh
 from synth.light import Stage, light_scene
-from synth.mesh import Mesh
-from synth.paths import ring
 from synth.render import open_renderer, render_view
 from synth.rocks.ellipsoid import ellipsoid
-from synth.scene import PlacedRock, Scene, build_scene
+from synth.scene.ground import make_ground
+from synth.scene.scene import PlacedRock, Scene, build_scene
 from synth.spec import SceneSpec
 from synth.spec.ground import GroundSpec
 from synth.spec.rocks import RocksSpec

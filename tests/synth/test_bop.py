@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.distance import pdist
 
-from synth.bop import diameter_m, run_lengths
+from synth.dataset.bop import diameter_m, run_lengths
 from synth.rocks.ellipsoid import ellipsoid_mesh
 
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from synth.camera import PRESETS, look_at, project, right_eye
-from synth.paths import ring
+from synth.camera.camera import PRESETS, look_at, project, right_eye
+from synth.camera.trajectories import ring
 
 
 @pytest.mark.parametrize("name", PRESETS)

@@ -3,7 +3,7 @@
 import pytest
 
 from rockshape.cli import main
-from synth.render import choice
+from synth.render import backends
 
 
 @pytest.mark.parametrize(
@@ -42,7 +42,7 @@ def test_a_mistake_is_one_line_and_status_2(tmp_path, capsys, options, words):
 
 
 def test_a_missing_renderer_is_status_3(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(choice, "has_backend", lambda _: False)
+    monkeypatch.setattr(backends, "has_backend", lambda _: False)
     assert main(["synth", "scene", str(tmp_path / "out"), "--renderer", "egl"]) == 3
     error = capsys.readouterr().err
     assert error.count("\n") == 1

@@ -9,7 +9,7 @@ import msgspec
 import numpy as np
 import pytest
 
-from synth.generate import generate_dataset
+from synth.dataset.generate import generate_dataset
 from synth.rocks import FAMILIES, quarry
 from synth.spec import SceneSpec, convert_spec
 from synth.spec.rocks import RocksSpec

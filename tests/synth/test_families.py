@@ -6,12 +6,12 @@ import trimesh
 from scipy.special import gamma
 
 from synth.errors import InputError
-from synth.inball import _by_solver, largest_ball
+from synth.geometry.inscribed_ball import _by_solver, largest_ball
 from synth.rocks import quarry
 from synth.rocks.ellipsoid import ellipsoid, ellipsoid_area_m2
 from synth.rocks.polyhedron import tangent_cuts
-from synth.rocks.quarry import by_relief, by_sphericity
 from synth.rocks.relief import with_relief
+from synth.rocks.sampling import by_relief, by_sphericity
 from synth.rocks.scan import scan
 from synth.rocks.sphere import band_limited, unit_sphere
 from synth.rocks.superellipsoid import integrals, superellipsoid

@@ -7,11 +7,11 @@ import cv2
 import numpy as np
 import pytest
 
-from synth.camera import PRESETS
-from synth.dataset import PARTIAL, depth_scale_mm, encode_depth, scene_name
+from synth.camera.camera import PRESETS
+from synth.dataset.generate import generate_dataset
+from synth.dataset.write import PARTIAL, depth_scale_mm, encode_depth, scene_name
 from synth.errors import InputError
-from synth.generate import generate_dataset
-from synth.scene import build_scene
+from synth.scene.scene import build_scene
 from synth.spec import SceneSpec
 from synth.spec.rocks import RocksSpec
 from synth.spec.view import CameraSpec, ViewsSpec

@@ -5,16 +5,24 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from synth.camera import Camera, border_rays, check_lens, distorted, look_at, project, undistorted
+from synth.camera.camera import (
+    Camera,
+    border_rays,
+    check_lens,
+    distorted,
+    look_at,
+    project,
+    undistorted,
+)
+from synth.camera.trajectories import camera_of
 from synth.errors import InputError
-from synth.ground import make_ground
+from synth.geometry.mesh import Mesh
 from synth.light import light_scene
-from synth.mesh import Mesh
-from synth.paths import camera_of
 from synth.render import open_renderer, render_view
 from synth.render.view import depth_limits_m
 from synth.rocks.ellipsoid import ellipsoid
-from synth.scene import PlacedRock, Scene, build_scene
+from synth.scene.ground import make_ground
+from synth.scene.scene import PlacedRock, Scene, build_scene
 from synth.spec import convert_spec
 from synth.spec.ground import GroundSpec
 from synth.spec.surface import SurfaceSpec

@@ -3,15 +3,15 @@
 import numpy as np
 import pytest
 
-from synth.camera import PRESETS, look_at
-from synth.ground import make_ground
+from synth.camera.camera import PRESETS, look_at
 from synth.light import light_scene
 from synth.light.photometry import light, reflected, towards_sun
 from synth.light.texture import pattern
 from synth.render import open_renderer
 from synth.render.view import render_light
 from synth.rocks.ellipsoid import ellipsoid
-from synth.scene import PlacedRock, Scene, build_scene
+from synth.scene.ground import make_ground
+from synth.scene.scene import PlacedRock, Scene, build_scene
 from synth.spec import convert_spec
 from synth.spec.ground import GroundSpec
 from synth.spec.surface import SurfaceSpec

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from synth.mesh import centroid_m, covariance_m2, volume_m3
+from synth.geometry.mesh import centroid_m, covariance_m2, volume_m3
 from synth.rocks.moments import rounded_moments
 from synth.rocks.polyhedron import cuboid, functionals, tangent_cuts
 from synth.rocks.rounding import rounded_mesh, rounded_volume_m3

@@ -3,12 +3,18 @@
 import numpy as np
 import pytest
 
-from synth.outlines import EllipsoidForm, RoundedHull, SuperellipsoidForm, mesh_form, plane_across
-from synth.outlines.silhouette import BEARINGS
-from synth.outlines.smooth import DIRECTIONS
-from synth.outlines.smoothed import SCALE
 from synth.rocks import quarry
 from synth.rocks.ellipsoid import ellipsoid
+from synth.rocks.outlines import (
+    EllipsoidForm,
+    RoundedHull,
+    SuperellipsoidForm,
+    mesh_form,
+    plane_across,
+)
+from synth.rocks.outlines.silhouette import BEARINGS
+from synth.rocks.outlines.smooth import DIRECTIONS
+from synth.rocks.outlines.smoothed import SCALE
 from synth.rocks.polyhedron import cuboid
 from synth.spec.rocks import RocksSpec
 

@@ -10,7 +10,7 @@ import pytest
 import trimesh
 from pycocotools.coco import COCO
 
-from synth.generate import generate_dataset
+from synth.dataset.generate import generate_dataset
 from synth.spec import SceneSpec
 from synth.spec.rocks import RocksSpec
 from synth.spec.sensor import NoiseSpec

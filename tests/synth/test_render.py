@@ -13,8 +13,8 @@ import pytest
 from scipy.ndimage import maximum_filter
 
 from synth.errors import MissingBackendError
-from synth.render import choice
-from synth.render.choice import BACKENDS, choose_backend, has_backend
+from synth.render import backends
+from synth.render.backends import BACKENDS, choose_backend, has_backend
 
 SCRIPT = Path(__file__).with_name("render_one.py")
 PRESENT = [backend for backend in BACKENDS if has_backend(backend)]
@@ -108,13 +108,13 @@ def test_auto_takes_the_first_present():
 
 
 def test_missing_backend_names_the_package(monkeypatch):
-    monkeypatch.setattr(choice, "has_backend", lambda name: name == "embree")
+    monkeypatch.setattr(backends, "has_backend", lambda name: name == "embree")
     with pytest.raises(MissingBackendError, match="libosmesa6"):
         choose_backend("osmesa")
     with pytest.raises(MissingBackendError, match="libegl1"):
         choose_backend("egl")
     assert choose_backend("auto") == "embree"
-    monkeypatch.setattr(choice, "has_backend", lambda _: False)
+    monkeypatch.setattr(backends, "has_backend", lambda _: False)
     with pytest.raises(MissingBackendError, match="libosmesa6") as caught:
         choose_backend("auto")
     assert caught.value.exit_status == 3
@@ -124,7 +124,7 @@ CONTEXTS = """
 import sys
 from synth.light import light_scene
 from synth.render import open_renderer, render_view
-from synth.scene import build_scene
+from synth.scene.scene import build_scene
 from synth.spec import convert_spec
 table = {"rocks": {"count": 2, "family": "rounded-box"}, "camera": {"preset": "imp"}}
 spec = convert_spec(table, where="test")

@@ -12,8 +12,8 @@ import time
 import pytest
 
 from rockshape.cli import main
-from synth.dataset import PARTIAL
-from synth.generate import generate_dataset
+from synth.dataset.generate import generate_dataset
+from synth.dataset.write import PARTIAL
 from synth.spec import load_spec
 from tests.digests import digests
 

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from synth.errors import InputError
-from synth.mesh import area_m2, volume_m3
+from synth.geometry.mesh import area_m2, volume_m3
 from synth.rocks.polyhedron import cuboid, from_half_spaces, functionals, inradius_m, tangent_cuts
 from synth.rocks.rounded import rounded_box
 from synth.rocks.rounding import rounded_area_m2, rounded_mesh, rounded_volume_m3

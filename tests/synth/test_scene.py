@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from synth import scene as scene_module
-from synth.camera import project
+from synth.camera.camera import project
 from synth.errors import InputError
 from synth.rocks import quarry
-from synth.scene import build_scene
+from synth.scene import scene as scene_module
+from synth.scene.scene import build_scene
 from synth.spec import SceneSpec
 from synth.spec.rocks import RocksSpec
 from synth.spec.view import CameraSpec

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from synth.dataset.shape_truth import RESOLVABLE_PX, scene_gt_shape
 from synth.light import light_scene
 from synth.render import choose_backend, open_renderer, render_view
-from synth.scene import build_scene
-from synth.shape_truth import RESOLVABLE_PX, scene_gt_shape
+from synth.scene.scene import build_scene
 from synth.spec import SceneSpec
 from synth.spec.rocks import RocksSpec
 from synth.spec.view import ViewsSpec

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from synth.outlines.smoothed import SCALE, inscribed_radius_m, smoothed_roundness
+from synth.rocks.outlines.smoothed import SCALE, inscribed_radius_m, smoothed_roundness
 
 TURN_RAD = 2.0 * np.pi * np.arange(8192) / 8192
 

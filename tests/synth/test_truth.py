@@ -5,13 +5,13 @@ import pytest
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
-from synth.box import nearby_box, smallest_box
-from synth.mesh import area_m2, covariance_m2, volume_m3
+from synth.geometry.mesh import area_m2, covariance_m2, volume_m3
+from synth.geometry.min_volume_box import nearby_box, smallest_box
 from synth.rocks.ellipsoid import ellipsoid, ellipsoid_area_m2
 from synth.rocks.polyhedron import cuboid
 from synth.rocks.relief import with_relief
 from synth.rocks.rounding import rounded_mesh
-from synth.truth import half_axes_of_covariance_m, maximum_projection_sphericity
+from synth.rocks.truth import half_axes_of_covariance_m, maximum_projection_sphericity
 
 HALF_AXES_M = np.array([0.2, 0.15, 0.1])
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import cv2
 
-from synth.workers import ONE_THREAD, worker_pool
+from synth.dataset.workers import ONE_THREAD, worker_pool
 
 
 def limits() -> tuple[dict[str, str | None], int]:
@@ -32,7 +32,7 @@ def test_workers_have_one_thread_and_the_parent_keeps_its_own(monkeypatch):
 def test_workers_end_with_the_process_that_gives_them_work():
     script = (
         "import os, time\n"
-        "from synth.workers import worker_pool\n"
+        "from synth.dataset.workers import worker_pool\n"
         "if __name__ == '__main__':\n"
         "    with worker_pool(1) as pool:\n"
         "        print(pool.submit(os.getpid).result(), flush=True)\n"

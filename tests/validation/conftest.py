@@ -7,10 +7,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from validation.claims import Claim, all_claims
-from validation.experiments import ShapesExperiment, YardExperiment
-from validation.scores import Key
-from validation.suite import Suite, load_suite
+from validation.scores.expectations import Claim, all_claims
+from validation.scores.score import Key
+from validation.suite.experiments import ShapesExperiment, YardExperiment
+from validation.suite.suite import Suite, load_suite
 
 MEASURES = (
     "axis_ratio",

@@ -4,9 +4,9 @@ import cv2
 import numpy as np
 import pandas as pd
 
-from validation.pictures import TRUE, Mark, Picture, Portrait
-from validation.records import Place
-from validation.units import UnitResult
+from validation.execution.units import UnitResult
+from validation.records.join import Place
+from validation.records.pictures import TRUE, Mark, Picture, Portrait
 
 SIDE_PX = 48
 SQUARE = (40, 40, 152, 40, 152, 152, 40, 152)

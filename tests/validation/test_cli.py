@@ -7,10 +7,10 @@ import pytest
 
 from rockshape.cli import main
 from rockshape.measures import METHODS
-from synth.render import choice
+from synth.render import backends
+from validation.execution.units import SceneUnit, describe, units_of
 from validation.report.scores_json import FORMAT
-from validation.suite import load_suite
-from validation.units import SceneUnit, describe, units_of
+from validation.suite.suite import load_suite
 
 SUITE = """
 name = "tiny"
@@ -157,7 +157,7 @@ def test_odd_folders_are_refused_before_any_work(tmp_path, suite_path, capsys, m
 def test_a_missing_renderer_is_one_line_and_status_3(
     tmp_path, suite_path, capsys, monkeypatch
 ) -> None:
-    monkeypatch.setattr(choice, "has_backend", lambda _: False)
+    monkeypatch.setattr(backends, "has_backend", lambda _: False)
     out = tmp_path / "out"
     assert main(["validate", "run", "--suite", str(suite_path), "--out", str(out)]) == 3
     error = capsys.readouterr().err

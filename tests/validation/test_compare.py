@@ -9,14 +9,14 @@ import pandas as pd
 import pytest
 
 from rockshape.cli import main
-from validation.compare import Recorded, compare, load_recorded
-from validation.gates import evaluate
-from validation.oracle import oracle
+from validation.execution.compare import Recorded, compare, load_recorded
+from validation.execution.run import assess
+from validation.execution.units import UnitResult
+from validation.kinds.scoring import gate_scores
 from validation.report import write_run
 from validation.report.scores_json import FORMAT
-from validation.run import assess
-from validation.scores import gate_scores
-from validation.units import UnitResult
+from validation.selfcheck.oracle import oracle
+from validation.suite.gates import evaluate
 
 
 @pytest.fixture(scope="module")

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from validation.design.common import movements
-from validation.design.outlines import explained_share, moments_of
-from validation.design.parts import CAUSES, Parts, split
 from validation.errors import InputError
+from validation.kinds.design.outlines import explained_share, moments_of
+from validation.kinds.design.shared_variance import movements
+from validation.kinds.design.variance_components import CAUSES, Parts, split
 
 V, D, L, R = 5, 3, 2, 4
 

@@ -5,11 +5,11 @@ import pandas as pd
 import pytest
 
 from rockshape.measures import METHODS
-from validation.design.outlines import TRUTH_OF
-from validation.experiments import DesignExperiment
-from validation.gates import evaluate
-from validation.scores import gate_scores
-from validation.suite import Suite, load_suite
+from validation.kinds.design.outlines import TRUTH_OF
+from validation.kinds.scoring import gate_scores
+from validation.suite.experiments import DesignExperiment
+from validation.suite.gates import evaluate
+from validation.suite.suite import Suite, load_suite
 
 CELLS = ["series", "view", "distance", "sun", "roll"]
 

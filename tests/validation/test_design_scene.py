@@ -5,26 +5,26 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from rockshape.measurement import to_frame
 from rockshape.measures import METHODS
 from rockshape.observation import Observation
 from rockshape.pipeline import measure
-from rockshape.table import to_frame
-from validation.design.cubes import cubes_of
-from validation.design.parts import CAUSES
-from validation.design.places import near_spec, scenes_of
-from validation.design.unit import shots, true_rocks
 from validation.errors import InputError
-from validation.experiments import DesignExperiment
-from validation.gates import Gate
-from validation.oracle import mixed, oracle, shuffled
+from validation.execution.run import assess
+from validation.execution.store import UnitStore, pack, unit_key
+from validation.execution.units import DesignUnit, UnitResult
+from validation.execution.work import run_unit
+from validation.kinds.design.placement import near_spec, scenes_of
+from validation.kinds.design.tensors import cubes_of
+from validation.kinds.design.variance_components import CAUSES
+from validation.kinds.design.work import shots, true_rocks
+from validation.kinds.scoring import score_names, score_values
 from validation.report.page import page_html
 from validation.report.summary import summary_markdown
-from validation.run import assess
-from validation.scores import score_names, score_values
-from validation.store import UnitStore, pack, unit_key
-from validation.suite import Suite, load_suite
-from validation.units import DesignUnit, UnitResult
-from validation.work import run_unit
+from validation.selfcheck.oracle import mixed, oracle, shuffled
+from validation.suite.experiments import DesignExperiment
+from validation.suite.gates import Gate
+from validation.suite.suite import Suite, load_suite
 
 SUITE = """
 name = "small"

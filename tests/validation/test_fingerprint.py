@@ -6,14 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from validation.code import LEFT_OUT, PACKAGES, code_digest, tree_digest
+from validation.execution.fingerprint import LEFT_OUT, PACKAGES, code_digest, tree_digest
 
 ROOT = Path(__file__).parents[2]
 WORKER = """
 import sys
-from validation.suite import load_suite
-from validation.dispatch import run_packed
-from validation.units import units_of
+from validation.suite.suite import load_suite
+from validation.execution.dispatch import run_packed
+from validation.execution.units import units_of
 run_packed(units_of(load_suite("shapes-roundness"))[0])
 print("\\n".join(sys.modules))
 """

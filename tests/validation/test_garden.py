@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from validation.experiments import YardExperiment
+from validation.kinds.garden.scores import COUPLES, column_of, definitions, is_garden, rho_key
+from validation.kinds.scoring import score_records
 from validation.paper import GARDEN_COLUMNS, garden_rank_move, garden_table
-from validation.scores import score_records
-from validation.scores.garden import COUPLES, column_of, definitions, is_garden, rho_key
+from validation.suite.experiments import YardExperiment
 
 ROUNDING = 1e-12
 

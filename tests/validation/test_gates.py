@@ -6,7 +6,7 @@ import msgspec
 import pytest
 
 from validation.errors import InputError
-from validation.gates import Found, Gate, check_names, evaluate
+from validation.suite.gates import Found, Gate, check_names, evaluate
 
 LEAST = Gate(score="a.tau", at_least=0.5, reason="r")
 MOST = Gate(score="a.cv", at_most=0.2, reason="r")

@@ -2,8 +2,8 @@ import msgspec
 import pytest
 
 from validation.errors import InputError
-from validation.inherit import resolve_likes
-from validation.suite import load_suite
+from validation.suite.inherit import resolve_likes
+from validation.suite.suite import load_suite
 
 
 def test_an_experiment_like_another_has_all_it_does_not_say_itself() -> None:

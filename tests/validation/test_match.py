@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from validation.errors import InputError
-from validation.match import match_labels
+from validation.records.match import match_labels
 
 
 def labels(text: str) -> np.ndarray:

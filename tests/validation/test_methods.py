@@ -5,13 +5,13 @@ from dataclasses import replace
 import pytest
 
 from rockshape.measures import METHODS
-from validation.claims import claims_of
-from validation.experiments import ShapesExperiment, YardExperiment
-from validation.gates import Gate, gates_on
-from validation.scores import definitions, score_names, score_values
-from validation.suite import Suite, load_suite, with_methods
-from validation.units import DrawingUnit
-from validation.work import run_unit
+from validation.execution.units import DrawingUnit
+from validation.execution.work import run_unit
+from validation.kinds.scoring import definitions, score_names, score_values
+from validation.scores.expectations import claims_of
+from validation.suite.experiments import ShapesExperiment, YardExperiment
+from validation.suite.gates import Gate, gates_on
+from validation.suite.suite import Suite, load_suite, with_methods
 
 GATE = Gate(score="s.sphericity.axis_ratio.tau", at_least=0.0, reason="r")
 

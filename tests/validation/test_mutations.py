@@ -2,8 +2,8 @@
 
 import pytest
 
-from validation.mutations import MUTATIONS, part_of, prepare_bench
-from validation.suite import load_suite
+from validation.selfcheck.mutations import MUTATIONS, part_of, prepare_bench
+from validation.suite.suite import load_suite
 
 
 @pytest.mark.parametrize("method", MUTATIONS)

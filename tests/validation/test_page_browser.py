@@ -9,9 +9,9 @@ import pytest
 from rockshape.measures import ROBUST
 from tests.browser import NAMES, Browser, chromium
 from tests.validation.pictured import units
+from validation.execution.run import assess
 from validation.report import write_run
-from validation.run import assess
-from validation.suite import load_suite
+from validation.suite.suite import load_suite
 
 pytestmark = pytest.mark.skipif(
     chromium() is None, reason=f"no Chromium: none of {', '.join(NAMES)} is on the path"

@@ -2,7 +2,8 @@
 
 import pytest
 
-from validation.agreement import (
+from validation.paper import consistency_table, garden_correlation, garden_table, ranking_table
+from validation.statistics import (
     across_views,
     between_views,
     coefficients_of_variation,
@@ -14,7 +15,6 @@ from validation.agreement import (
     tau_b,
     within_views,
 )
-from validation.paper import consistency_table, garden_correlation, garden_table, ranking_table
 
 THREE_DIGITS = 5.1e-4  # half a unit of the third decimal, and rounding
 

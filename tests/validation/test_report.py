@@ -10,14 +10,14 @@ import pytest
 from junitparser import JUnitXml
 
 from tests.validation.pictured import units
-from validation.claims import Claim
 from validation.errors import InputError
-from validation.oracle import oracle
+from validation.execution.run import assess
 from validation.report import check_target, write_run
 from validation.report.charts import CELLS, Points, scatter, span
-from validation.report.ranks import rank_table
-from validation.report.words import interval, number
-from validation.run import assess
+from validation.report.format import interval, number
+from validation.report.rank_table import rank_table
+from validation.scores.expectations import Claim
+from validation.selfcheck.oracle import oracle
 
 FILES = {"index.html", "scores.json", "results.parquet", "junit.xml", "summary.md"}
 

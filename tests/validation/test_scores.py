@@ -6,11 +6,11 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from validation.claims import all_view_claims
-from validation.gates import Gate, evaluate
-from validation.oracle import mixed, oracle, shuffled
-from validation.scores import definitions, gate_scores, score_records, score_values
-from validation.scores.shapes import gap_shares
+from validation.kinds.scoring import definitions, gate_scores, score_records, score_values
+from validation.kinds.shapes.scores import gap_shares
+from validation.scores.expectations import all_view_claims
+from validation.selfcheck.oracle import mixed, oracle, shuffled
+from validation.suite.gates import Gate, evaluate
 
 
 def held(suite, records, *, views=False):

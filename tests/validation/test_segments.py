@@ -8,21 +8,21 @@ import pandas as pd
 import pytest
 
 from rockshape.observation import Observation
-from validation.compare import Recorded, check_paired, compare
 from validation.errors import InputError
-from validation.experiments import SegmentationExperiment
-from validation.gates import Gate, evaluate
-from validation.oracle import mixed, oracle, shuffled
+from validation.execution.compare import Recorded, check_paired, compare
+from validation.execution.run import assess
+from validation.execution.store import UnitStore, pack, unit_key
+from validation.execution.units import SegmentationUnit, UnitResult
+from validation.execution.work import run_unit
+from validation.kinds.scoring import gate_scores, score_values
+from validation.kinds.segmentation.baselines import fixed_height, otsu, plain_watershed
+from validation.kinds.segmentation.judge import Rule, judge
 from validation.report.page import page_html
 from validation.report.summary import summary_markdown
-from validation.run import assess
-from validation.scores import gate_scores, score_values
-from validation.segments.baselines import fixed_height, otsu, plain_watershed
-from validation.segments.judge import Rule, judge
-from validation.store import UnitStore, pack, unit_key
-from validation.suite import load_suite
-from validation.units import SegmentationUnit, UnitResult
-from validation.work import run_unit
+from validation.selfcheck.oracle import mixed, oracle, shuffled
+from validation.suite.experiments import SegmentationExperiment
+from validation.suite.gates import Gate, evaluate
+from validation.suite.suite import load_suite
 
 RULE = Rule(min_iou=0.5, min_width_px=12)
 

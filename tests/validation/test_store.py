@@ -14,15 +14,15 @@ import msgspec
 import pandas as pd
 import pytest
 
-from validation import store as store_module
-from validation.dispatch import dispatch, run_packed
 from validation.errors import InputError, WorkerError
-from validation.executors import LocalExecutor, local
-from validation.experiments import ShapesExperiment
-from validation.store import UnitStore, code_of, is_store, pack, unit_key
-from validation.suite import load_suite
-from validation.units import DrawingUnit, units_of
-from validation.work import run_unit
+from validation.execution import store as store_module
+from validation.execution.dispatch import dispatch, run_packed
+from validation.execution.executors import LocalExecutor, local
+from validation.execution.store import UnitStore, code_of, is_store, pack, unit_key
+from validation.execution.units import DrawingUnit, units_of
+from validation.execution.work import run_unit
+from validation.suite.experiments import ShapesExperiment
+from validation.suite.suite import load_suite
 
 SUITE = """
 name = "drawings"
@@ -126,7 +126,7 @@ def test_a_worker_with_other_code_is_refused(packed, tmp_path, monkeypatch) -> N
             future.set_result(packed)
             return future
 
-    monkeypatch.setattr("validation.dispatch.code_digest", lambda: "ours")
+    monkeypatch.setattr("validation.execution.dispatch.code_digest", lambda: "ours")
     assert code_of(packed) != "ours"
     with Elsewhere(1) as executor, pytest.raises(WorkerError, match="code"):
         dispatch([("ab", UNIT)], executor, UnitStore(tmp_path, keep=False), lambda _: None)

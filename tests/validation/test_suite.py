@@ -5,9 +5,9 @@ from importlib.resources import files
 import pytest
 
 from validation.errors import InputError
-from validation.gates import check_names
-from validation.scores import definitions
-from validation.suite import load_gates, load_suite, suite_names
+from validation.kinds.scoring import definitions
+from validation.suite.gates import check_names
+from validation.suite.suite import load_gates, load_suite, suite_names
 
 CI = (files("validation") / "suites" / "ci.toml").read_text(encoding="utf-8")
 

@@ -5,13 +5,13 @@ import pandas as pd
 import pytest
 
 from synth.spec import SceneSpec
-from validation.experiments import YardExperiment
-from validation.scores import definitions
-from validation.store import unit_key
-from validation.suite import Suite
-from validation.sweep import Sweep
-from validation.units import units_of
-from validation.work import run_unit
+from validation.execution.store import unit_key
+from validation.execution.units import units_of
+from validation.execution.work import run_unit
+from validation.kinds.scoring import definitions
+from validation.suite.experiments import YardExperiment
+from validation.suite.suite import Suite
+from validation.suite.sweep import Sweep
 
 
 def sweep(key, values) -> Sweep:

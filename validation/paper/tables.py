@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 from scipy import stats
 
-from validation.agreement import Block
+from validation.statistics import Block
 
 # Table number of each roundness-type measure, by our name for the measure.
 CONSISTENCY_TABLES = {

@@ -10,7 +10,7 @@ import numpy as np
 from markupsafe import Markup, escape
 from numpy.typing import NDArray
 
-from validation.report.axes import Axis, axis_of, tick_text
+from validation.report.svg_axes import Axis, axis_of, tick_text
 
 WIDTH, HEIGHT = 340.0, 250.0
 LEFT, RIGHT, TOP, BOTTOM = 62.0, 12.0, 14.0, 40.0

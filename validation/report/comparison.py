@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
-from validation.compare import REGRESSIONS, Change
-from validation.report.words import interval, number
+from validation.execution.compare import REGRESSIONS, Change
+from validation.report.format import interval, number
 
 _TOLD = ("worse", "gone", "better", "moved")
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 from markupsafe import Markup, escape
 
-from validation.pictures import TRUE, UNITS, Mark, Portrait
+from validation.records.pictures import TRUE, UNITS, Mark, Portrait
 
 SLICE = 'preserveAspectRatio="xMidYMid slice"'  # fills the place it is shown in
 

@@ -2,12 +2,12 @@
 
 from dataclasses import dataclass
 
-from validation.experiments import YardExperiment
-from validation.naming import title_of
+from validation.execution.run import Run
+from validation.kinds.garden.scores import COUPLES, column_of, rho_key
 from validation.paper import GARDEN_COLUMNS, garden_correlation, garden_rank_move
-from validation.run import Run
-from validation.scores import Key, Score
-from validation.scores.garden import COUPLES, column_of, rho_key
+from validation.scores.score import Key, Score
+from validation.scores.titles import title_of
+from validation.suite.experiments import YardExperiment
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,8 @@ from io import BytesIO
 
 from junitparser import Failure, JUnitXml, TestCase, TestSuite
 
-from validation.report.words import number
-from validation.run import Run
+from validation.execution.run import Run
+from validation.report.format import number
 
 
 def junit_xml(run: Run) -> str:

@@ -3,11 +3,11 @@
 import math
 from dataclasses import dataclass
 
-from validation.claims import all_claims
-from validation.experiments import YardExperiment
-from validation.report.words import interval, number
-from validation.run import Run
-from validation.scores import Key, Score
+from validation.execution.run import Run
+from validation.report.format import interval, number
+from validation.scores.expectations import all_claims
+from validation.scores.score import Key, Score
+from validation.suite.experiments import YardExperiment
 
 _TRUTHS = {
     "truth_angularity": "angularity",

@@ -6,14 +6,14 @@ from importlib.resources import files
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup, escape
 
-from validation.claims import all_claims
-from validation.experiments import SegmentationExperiment, ShapesExperiment, YardExperiment
-from validation.naming import REFERENCE, title_of
+from validation.execution.run import Run
+from validation.kinds.garden.scores import is_garden
 from validation.paper import CONSISTENCY_TABLES
 from validation.report.charts import mark_symbols, span, view_key
-from validation.report.choice import choose
+from validation.report.format import interval, number
 from validation.report.garden import garden_tables
 from validation.report.leaderboard import leaderboards
+from validation.report.page_selection import choose
 from validation.report.paper import paper_values
 from validation.report.provenance import seeds, versions
 from validation.report.sections import (
@@ -23,10 +23,10 @@ from validation.report.sections import (
     yard_section,
 )
 from validation.report.sweeps import sweep_section
-from validation.report.words import interval, number
-from validation.run import Run
 from validation.scores.agreement import STATISTICS
-from validation.scores.garden import is_garden
+from validation.scores.expectations import all_claims
+from validation.scores.titles import REFERENCE, title_of
+from validation.suite.experiments import SegmentationExperiment, ShapesExperiment, YardExperiment
 
 MAX_BYTES = 5_000_000  # of the page
 SHARES = (1.0, 0.6, 0.3, 0.1, 0.0)  # of the room below, tried one after another until it fits

@@ -3,7 +3,7 @@
 import platform
 from importlib.metadata import version
 
-from validation.run import Run
+from validation.execution.run import Run
 
 _PACKAGES = ("rockshape", "numpy", "scipy", "opencv-python-headless", "scikit-image", "pandas")
 

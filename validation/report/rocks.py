@@ -8,14 +8,14 @@ import pandas as pd
 from markupsafe import Markup
 
 from rockshape.measures import METHODS
-from validation.claims import claims_of
-from validation.experiments import ShapesExperiment, YardExperiment
-from validation.naming import title_of, unit_of
-from validation.pictures import Portrait
-from validation.report.choice import RockKey, keys_of
+from validation.execution.run import Run
+from validation.records.pictures import Portrait
 from validation.report.embed import symbols
-from validation.report.offs import ranks_off
-from validation.run import Run
+from validation.report.page_selection import RockKey, keys_of
+from validation.report.rank_error import ranks_off
+from validation.scores.expectations import claims_of
+from validation.scores.titles import title_of, unit_of
+from validation.suite.experiments import ShapesExperiment, YardExperiment
 
 Measured = YardExperiment | ShapesExperiment
 

@@ -5,11 +5,11 @@ import math
 
 import msgspec
 
-from validation.gates import GateResult
+from validation.execution.run import Run
 from validation.report.paper import paper_values
 from validation.report.provenance import seeds, versions
-from validation.run import Run
-from validation.scores import Score
+from validation.scores.score import Score
+from validation.suite.gates import GateResult
 
 FORMAT = "rockshape validation run 2"
 

@@ -5,21 +5,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from validation.claims import claims_of
-from validation.experiments import SegmentationExperiment, ShapesExperiment, YardExperiment
-from validation.naming import REFERENCE, title_of_claim, unit_of
+from validation.execution.run import Run
+from validation.kinds.shapes.scores import gap_shares
 from validation.paper.prose import FIGURES, Quoted
-from validation.pictures import Portrait
-from validation.report.choice import RockKey
-from validation.report.plots import Plot, plots
-from validation.report.ranks import RankTable, rank_table
+from validation.records.pictures import Portrait
+from validation.report.embedded_views import ShownPicture, shown_pictures
+from validation.report.page_selection import RockKey
+from validation.report.rank_table import RankTable, rank_table
 from validation.report.rocks import Measured, RockTable, rock_table
-from validation.report.shown import ShownPicture, shown_pictures
-from validation.run import Run
-from validation.scores import Score
+from validation.report.scatter_chart import Plot, plots
 from validation.scores.blocks import blocks_of
-from validation.scores.score import Key
-from validation.scores.shapes import gap_shares
+from validation.scores.expectations import claims_of
+from validation.scores.score import Key, Score
+from validation.scores.titles import REFERENCE, title_of_claim, unit_of
+from validation.suite.experiments import SegmentationExperiment, ShapesExperiment, YardExperiment
 
 
 @dataclass(frozen=True)

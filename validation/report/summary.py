@@ -1,9 +1,9 @@
 """A run in Markdown, short enough for a pull request."""
 
-from validation.gates import Gate
+from validation.execution.run import Run
+from validation.report.format import interval, number
 from validation.report.leaderboard import leaderboard_lines
-from validation.report.words import interval, number
-from validation.run import Run
+from validation.suite.gates import Gate
 
 
 def _cell(text: str) -> str:

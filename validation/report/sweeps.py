@@ -6,13 +6,13 @@ from dataclasses import dataclass
 from markupsafe import Markup
 
 from rockshape.measures import METHODS
-from validation.experiments import YardExperiment
-from validation.report.lines import Line, line_chart
+from validation.execution.run import Run
+from validation.report.embedded_views import ShownPicture, shown_pictures
+from validation.report.line_chart import Line, line_chart
 from validation.report.rocks import RockTable, rock_table
 from validation.report.sections import Room
-from validation.report.shown import ShownPicture, shown_pictures
-from validation.run import Run
-from validation.scores import Key, Score
+from validation.scores.score import Key, Score
+from validation.suite.experiments import YardExperiment
 
 _CHARTED = (  # statistic, heading, the least top of its axis
     ("tau", "Order within a view (τ_b)", 1.0),

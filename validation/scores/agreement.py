@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.agreement import (
+from validation.scores.score import Better, Estimate
+from validation.statistics import (
     Block,
     Pairs,
     across_views,
@@ -20,7 +21,6 @@ from validation.agreement import (
     tau_b,
     within_views,
 )
-from validation.scores.score import Better, Estimate
 
 
 @dataclass(frozen=True)

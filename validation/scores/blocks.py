@@ -3,8 +3,8 @@
 import numpy as np
 import pandas as pd
 
-from validation.agreement import Block
-from validation.claims import Claim
+from validation.scores.expectations import Claim
+from validation.statistics import Block
 
 
 def blocks_of(records: pd.DataFrame, claim: Claim) -> tuple[Block, ...]:

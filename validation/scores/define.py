@@ -1,10 +1,10 @@
 """A claim's score by one statistic, the same for rocks and for drawn shapes."""
 
-from validation.claims import Claim
-from validation.naming import title_of_claim, unit_of
 from validation.scores.agreement import Statistic
 from validation.scores.blocks import blocks_of
+from validation.scores.expectations import Claim
 from validation.scores.score import Definition, Key
+from validation.scores.titles import title_of_claim, unit_of
 
 
 def define(claim: Claim, statistic: Statistic) -> Definition:

@@ -10,8 +10,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from validation.agreement.interval import bootstrap_interval
-from validation.naming import REFERENCE
+from validation.scores.titles import REFERENCE
+from validation.statistics.interval import bootstrap_interval
 
 BOOTSTRAP_SEED = 20020309
 

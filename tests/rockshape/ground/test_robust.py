@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from rockshape.ground import fit_ground
-from rockshape.ground.noise import estimate_noise
+from rockshape.ground.range_noise import estimate_noise
 from rockshape.ground.robust import fit_inverse_depth
 from tests import solids
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from rockshape.ground.bend import bend
-from rockshape.ground.envelope import gentle_below
-from rockshape.ground.noise import Noise
-from rockshape.ground.smooth import fit_swell, undulates
+from rockshape.ground.range_noise import Noise
+from rockshape.ground.slope_filter import gentle_below
+from rockshape.ground.thin_plate import bend
+from rockshape.ground.undulation import fit_swell, undulates
 
 NORMAL = np.array([0.0, -1.0, 0.0])
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from rockshape.camera import Camera
+from rockshape.camera.camera import Camera
 from rockshape.errors import InputError
 from rockshape.io import read_camera
 

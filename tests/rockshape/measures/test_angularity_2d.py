@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rockshape.measures.angularity_2d import angularity_2d_deg
-from rockshape.outline import trace_outline
+from rockshape.outline.trace import trace_outline
 from tests import solids
 
 

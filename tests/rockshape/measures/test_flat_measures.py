@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from rockshape.ellipse import Ellipse, fit_ellipse
+from rockshape.ellipse.direct import Ellipse, fit_ellipse
 from rockshape.measures.axis_ratio import axis_ratio
 from rockshape.measures.ellipse_error import ellipse_error_px2
 from rockshape.measures.sphericity_2d import sphericity_2d
-from rockshape.outline import trace_outline
+from rockshape.outline.trace import trace_outline
 from tests import solids
 
 

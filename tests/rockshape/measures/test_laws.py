@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rockshape.measures import METHODS, Measure
-from rockshape.rock_view import RockView
+from rockshape.rock.view import RockView
 from tests import rocks
 
 # by a measure's unit, the powers of size in pixels and in metres by which its value grows

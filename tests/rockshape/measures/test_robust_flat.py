@@ -6,7 +6,7 @@ import pytest
 from rockshape.measures import angularity_2d, axis_ratio, ellipse_error, sphericity_2d
 from rockshape.measures import roundness as roundness_measure
 from rockshape.measures.measure import Measure, Reason
-from rockshape.rock_view import RockView
+from rockshape.rock.view import RockView
 from tests import solids
 
 ROBUST = {

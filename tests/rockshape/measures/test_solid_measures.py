@@ -6,9 +6,9 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from rockshape.ground import Plane
+from rockshape.ground.pixel_noise import RangeNoise
 from rockshape.measures import Reason, angularity_3d, ellipsoid_error, sphericity_3d
-from rockshape.range_noise import RangeNoise
-from rockshape.rock_view import RockView
+from rockshape.rock.view import RockView
 from tests import solids
 
 MEASURES = (ellipsoid_error.ROBUST, sphericity_3d.ROBUST, angularity_3d.ROBUST)

@@ -1,8 +1,8 @@
 import numpy as np
 from skimage.measure import points_in_poly
 
-from rockshape.segmentation.fill import inside_of
-from rockshape.segmentation.numbers import in_reading_order, renumber
+from rockshape.segmentation.polygon_fill import inside_of
+from rockshape.segmentation.relabel import in_reading_order, renumber
 
 
 def filled(x: np.ndarray, y: np.ndarray, shape: tuple[int, int]) -> np.ndarray:

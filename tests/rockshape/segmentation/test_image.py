@@ -5,12 +5,12 @@ import numpy as np
 
 from rockshape.observation import Observation
 from rockshape.segmentation import segment
-from rockshape.segmentation.fill import inside_of
-from rockshape.segmentation.lightness import read_lightness
-from rockshape.segmentation.likely import features_of, likelihood
-from rockshape.segmentation.seeds import find_seeds
-from rockshape.segmentation.snap import paint, snap
-from rockshape.segmentation.stars import Stars, propose
+from rockshape.segmentation.by_image.ground_appearance import read_lightness
+from rockshape.segmentation.by_image.proposal_score import features_of, likelihood
+from rockshape.segmentation.by_image.proposal_seeds import find_seeds
+from rockshape.segmentation.by_image.star_proposals import Stars, propose
+from rockshape.segmentation.edges.edge_snapping import paint, snap
+from rockshape.segmentation.polygon_fill import inside_of
 from tests import solids
 
 

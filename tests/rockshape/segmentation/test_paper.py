@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from rockshape.segmentation.paper import Kind, classify, segment_heights
+from rockshape.segmentation.published import Kind, classify, segment_heights
 
 
 def dome(shape: tuple[int, int], row: float, col: float, radius: float, top: float) -> np.ndarray:

@@ -3,7 +3,7 @@ import itertools
 import numpy as np
 import pytest
 
-from rockshape.segmentation.path import cheapest_paths, closed_paths
+from rockshape.segmentation.edges.shortest_path import cheapest_paths, closed_paths
 
 
 def test_the_path_is_the_cheapest_of_all(rng: np.random.Generator) -> None:

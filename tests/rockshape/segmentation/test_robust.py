@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from rockshape.ground import fit_ground
-from rockshape.ground.noise import Noise
+from rockshape.ground.range_noise import Noise
 from rockshape.observation import Observation
 from rockshape.segmentation import Segmentation, segment
-from rockshape.segmentation.relief import relief_of
-from rockshape.segmentation.segment import find_by_range
+from rockshape.segmentation.by_range.height_signal import relief_of
+from rockshape.segmentation.robust import find_by_range
 from tests import solids
 
 DOWN = np.array([0.0, 0.8, 0.6])  # towards the ground, in the camera frame

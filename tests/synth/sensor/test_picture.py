@@ -4,7 +4,7 @@ import msgspec
 import numpy as np
 import pytest
 
-from synth.sensor.picture import eight_bits, take_picture
+from synth.sensor.exposure import eight_bits, take_picture
 from synth.spec import SceneSpec
 from synth.spec.sensor import SensorSpec
 

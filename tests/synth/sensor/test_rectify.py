@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from synth.camera import Camera, pixel_rays, undistorted
+from synth.camera.camera import Camera, pixel_rays, undistorted
 from synth.light import light_scene
 from synth.render import open_renderer, render_view
-from synth.scene import build_scene
+from synth.scene.scene import build_scene
 from synth.sensor import capture_view
 from synth.sensor.rectify import Rectification
 from synth.sensor.rig import rig_of

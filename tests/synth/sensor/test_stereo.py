@@ -5,7 +5,7 @@ import pytest
 
 from synth.errors import InputError
 from synth.sensor import rig as rig_module
-from synth.sensor.holes import contrast, half_occluded
+from synth.sensor.occlusion import contrast, half_occluded
 from synth.sensor.rig import Rig, rig_of
 from synth.sensor.stereo import even_noise, modelled_depth_m, pull
 from synth.spec.sensor import NoiseSpec

@@ -1,0 +1,1 @@
+"""Ellipse fits: direct least squares, an arc, and area moments."""

@@ -1,0 +1,119 @@
+"""How far an ellipsoid's silhouette and its lowest point lie from where they should."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rockshape.ellipsoid.parameters import State
+
+Floats = NDArray[np.float64]  # spelt once: inner functions evaluate their annotations at each call
+
+TINY = 1e-24
+
+
+@dataclass(frozen=True, eq=False)
+class Linearised:
+    """Residuals (n,), and their derivatives (9, n) by the parameters of a step if asked for."""
+
+    residuals: Floats
+    derive: Callable[[], Floats]
+
+    @cached_property
+    def jacobian(self) -> Floats:
+        """The derivatives; a search asks for them where it steps, not at every trial."""
+        return self.derive()
+
+
+def points_to_surface(points: Floats, state: State) -> Linearised:
+    """Radial distances of points (3, n), outside positive: |y| (1 - 1/v), v = |y/s|."""
+    return _radial(state.rotation.T @ (points - state.centre[:, None]), state)
+
+
+def _radial(own: Floats, state: State) -> Linearised:
+    inverse = np.exp(-2 * state.log_axes)
+    square = own * own
+    length = np.sqrt(np.maximum(square.sum(axis=0), TINY))
+    level = np.sqrt(np.maximum(inverse @ square, TINY))
+    share = 1 - 1 / level
+
+    def derive() -> Floats:
+        weight = length / level**3
+        jacobian = np.empty((9, own.shape[1]))
+        scaled = inverse[:, None] * own
+        heavy = np.multiply(weight, scaled, out=scaled)
+        np.multiply(-(share / length), own, out=jacobian[:3])
+        jacobian[:3] -= heavy
+        np.multiply(-own, heavy, out=jacobian[3:6])
+        cross(heavy, own, out=jacobian[6:])
+        return jacobian
+
+    return Linearised(residuals=length * share, derive=derive)
+
+
+def rays_to_silhouette(directions: Floats, origin: Floats, state: State) -> Linearised:
+    """Radial distances of rays from an ellipsoid, outside positive; 0 for a tangent.
+
+    directions (3, n) from origin (3,). The distance is that of the ray's point of the lowest
+    level v = |y/s|, at t = -(β . α)/(β . β) with β = d/s and α = (origin - centre)/s in own axes.
+    """
+    scale = np.exp(-state.log_axes)
+    aim = state.rotation.T @ directions
+    start = state.rotation.T @ (origin - state.centre)
+    beta, alpha = scale[:, None] * aim, scale * start
+    square = (beta * beta).sum(axis=0)
+    along = -(alpha @ beta) / square
+    own = start[:, None] + along * aim
+    found = _radial(own, state)
+
+    def derive() -> Floats:
+        # the foot moves along the ray: v is stationary there, |y| is not
+        reached = np.maximum((own * own).sum(axis=0), TINY)
+        slide = found.residuals * (own * aim).sum(axis=0) / (reached * square)
+        reach = along * beta
+        foot = alpha[:, None] + reach  # the foot over the half-axes
+        slope = scale[:, None] * beta
+        moved = np.empty((9, own.shape[1]))
+        moved[:3] = slope
+        np.multiply(2 * beta, foot, out=moved[3:6])
+        # beta/s x start + (alpha + 2 along beta)/s x aim
+        cross(slope, start[:, None], out=moved[6:])
+        moved[6:] += cross(scale[:, None] * (foot + reach), aim)
+        np.negative(moved[6:], out=moved[6:])
+        moved *= slide
+        moved += found.jacobian
+        return moved
+
+    return Linearised(residuals=found.residuals, derive=derive)
+
+
+def lowest_point(normal: Floats, state: State) -> Linearised:
+    """Height of the lowest point over the plane through 0: n . c - |(s_k a_k . n)|, one residual.
+
+    dh = n . dc - (r_k²/|r|) dlog s_k - ..., with r_k = s_k (a_k . n).
+    """
+    own = state.rotation.T @ normal
+    square = np.exp(2 * state.log_axes)
+    reach = float(np.sqrt(square @ (own * own)))
+
+    def derive() -> Floats:
+        jacobian = np.empty((9, 1))
+        jacobian[:3, 0] = own
+        jacobian[3:6, 0] = -square * own * own / reach
+        # R exp([w]): own -> own - w x own
+        cross(own[:, None], (square * own / reach)[:, None], out=jacobian[6:])
+        return jacobian
+
+    return Linearised(residuals=np.array([float(normal @ state.centre) - reach]), derive=derive)
+
+
+def cross(first: Floats, second: Floats, *, out: Floats | None = None) -> Floats:
+    """Cross products (3, n) of columns; numpy's own spends its time on the order of axes."""
+    (a, b, c), (x, y, z) = first, second
+    result = np.empty_like(first) if out is None else out
+    np.subtract(b * z, c * y, out=result[0])
+    np.subtract(c * x, a * z, out=result[1])
+    np.subtract(a * y, b * x, out=result[2])
+    return result

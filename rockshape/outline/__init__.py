@@ -1,0 +1,1 @@
+"""Outlines of rocks: tracing, resampling, diameters, descriptors and Wadell roundness."""

@@ -1,0 +1,1 @@
+"""One rock of an image: its pixels, its visibility and the fits that measures share."""

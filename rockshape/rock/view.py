@@ -1,0 +1,161 @@
+"""One rock as one image shows it: what every measure is computed from."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rockshape.camera.camera import Camera
+from rockshape.camera.silhouette import grazing_rays
+from rockshape.ellipse.arc import fit_arc
+from rockshape.ellipse.direct import Ellipse, fit_ellipse
+from rockshape.ellipse.moments import moment_ellipse
+from rockshape.ellipsoid import Ellipsoid, EllipsoidFit, Resting, fit_ellipsoid, fit_held_ellipsoid
+from rockshape.ground.pixel_noise import RangeNoise
+from rockshape.outline.edge import edge_of
+from rockshape.outline.extent import feret_diameters
+from rockshape.outline.resample import form_outline, pixel_smooth
+from rockshape.outline.trace import trace_outline
+from rockshape.rock.visibility import touches_border
+from rockshape.surface import Relief, Surface, fit_surface, measure_relief, view_patch
+
+if TYPE_CHECKING:
+    from rockshape.ground import Plane  # brings scipy.optimize, a fifth of a second
+
+LEAST_WIDTH_PX = 4.0
+NOISE_DRAWS = 4  # of errors like the range's, to tell what they alone would make of a surface
+
+
+@dataclass(frozen=True, eq=False)
+class RockView:
+    """A rock's pixels and points, and the fits to them, each made when first asked for.
+
+    A fit is None where the pixels or points do not determine it.
+    """
+
+    mask: NDArray[np.bool_]  # (rows, cols), the rock's pixels within its box
+    corner: tuple[int, int] = (0, 0)  # row and column of the box's first pixel in the image
+    grid_m: NDArray[np.float64] | None = None  # (rows, cols, 3) in the camera frame, or no range
+    camera: Camera | None = None
+    ground: "Plane | None" = None
+    frame: tuple[slice, slice] | None = None  # rows and columns in which rocks can be seen
+    noise: RangeNoise | None = None  # None: the range is taken to be exact
+
+    @cached_property
+    def truncated(self) -> bool:
+        """Whether the rock touches the frame's border, which may have cut it."""
+        if self.frame is None:
+            return False
+        window = tuple(
+            slice(start, start + size)
+            for start, size in zip(self.corner, self.mask.shape, strict=True)
+        )
+        return touches_border((window[0], window[1]), self.frame)
+
+    @cached_property
+    def outline_px(self) -> NDArray[np.float64]:
+        """Centres of the boundary pixels, (n, 2) as (x, y) in the image, clockwise."""
+        return trace_outline(self.mask) + np.array(self.corner[::-1], dtype=np.float64)
+
+    @cached_property
+    def edge_px(self) -> NDArray[np.float64]:
+        """Middles of the pixel sides round the rock, (k, 2) as (x, y), half a pixel farther out."""
+        return edge_of(self.outline_px)
+
+    @cached_property
+    def smooth_outline_px(self) -> NDArray[np.float64]:
+        """The edge without its staircase, (m, 2) evenly about a pixel apart."""
+        return pixel_smooth(self.edge_px)
+
+    @cached_property
+    def form_outline_px(self) -> NDArray[np.float64]:
+        """The edge's form, the same at every size: (100, 2), evenly."""
+        return form_outline(self.edge_px)
+
+    @cached_property
+    def resolved(self) -> bool:
+        """Whether the outline is at least 4 px wide, below which pixels are its shape."""
+        return self.feret_px[0] >= LEAST_WIDTH_PX
+
+    @cached_property
+    def feret_px(self) -> tuple[float, float]:
+        """Least and greatest Feret diameter of the smooth outline."""
+        return feret_diameters(self.smooth_outline_px)
+
+    @cached_property
+    def form_ellipse(self) -> Ellipse | None:
+        """The ellipse with the form's area moments; of a truncated rock, the free arc's."""
+        if self.truncated:
+            return fit_arc(self.free_edge_px)
+        return moment_ellipse(self.smooth_outline_px)
+
+    @cached_property
+    def free_edge_px(self) -> NDArray[np.float64]:
+        """The part of the edge that does not lie on the frame's border, (k, 2)."""
+        if self.frame is None:
+            return self.edge_px
+        rows, cols = self.frame
+        low = np.array([cols.start, rows.start]) - 0.5
+        high = np.array([cols.stop, rows.stop]) - 0.5
+        return self.edge_px[((self.edge_px > low) & (self.edge_px < high)).all(axis=1)]
+
+    @cached_property
+    def points_m(self) -> NDArray[np.float64]:
+        """The points measured on the rock, (k, 3) in the camera frame; none without range."""
+        if self.grid_m is None:
+            return np.empty((0, 3))
+        points = self.grid_m[self.mask]
+        return points[np.isfinite(points).all(axis=1)]
+
+    @cached_property
+    def ellipse(self) -> Ellipse | None:
+        """The ellipse of the outline."""
+        return fit_ellipse(self.outline_px)
+
+    @cached_property
+    def ellipsoid(self) -> EllipsoidFit | None:
+        """The ellipsoid of the points; an axis at its bound or a creeping search is no fit."""
+        fit = fit_ellipsoid(self.points_m)
+        return None if fit is None or fit.bounded or not fit.converged else fit
+
+    @cached_property
+    def surface(self) -> Surface | None:
+        """The B-spline surface of the points."""
+        patch = view_patch(self.points_m)
+        return None if patch is None else fit_surface(patch)
+
+    @cached_property
+    def held_ellipsoid(self) -> Ellipsoid | None:
+        """The ellipsoid that range, silhouette and ground hold, whichever of them are known."""
+        if len(self.points_m) == 0:
+            return None
+        rays = None
+        if self.camera is not None:
+            rays = grazing_rays(self.mask, self.corner, self.camera, self.grid_m)
+        ground = self.ground
+        fit = fit_held_ellipsoid(
+            self.points_m,
+            point_sd_m=0.0 if self.noise is None else self.noise.depth_sd_m(self.points_m[:, 2]),
+            silhouette=rays,
+            ground=None if ground is None else Resting(ground.normal, ground.offset_m),
+        )
+        return None if fit is None or fit.bounded or not fit.converged else fit.ellipsoid
+
+    @cached_property
+    def relief(self) -> Relief | None:
+        """What stands out of the held ellipsoid."""
+        if self.held_ellipsoid is None:
+            return None
+        return measure_relief(self.held_ellipsoid, self.points_m, draws_m=self._noise_draws_m())
+
+    def _noise_draws_m(self) -> NDArray[np.float64] | None:
+        """Errors of depth (k, draws) like those of the points; None for exact range."""
+        if self.noise is None or self.grid_m is None:
+            return None
+        rng = np.random.default_rng(0)
+        known = self.mask & np.isfinite(self.grid_m).all(axis=-1)
+        depth = self.grid_m[..., 2]
+        draws = [self.noise.draw_m(depth, rng=rng)[known] for _ in range(NOISE_DRAWS)]
+        return np.column_stack(draws)

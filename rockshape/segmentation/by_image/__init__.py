@@ -1,0 +1,1 @@
+"""Segmentation by the image alone: star-shaped proposals, scored and selected."""

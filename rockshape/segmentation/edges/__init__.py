@@ -1,0 +1,1 @@
+"""Outlines snapped to image edges."""

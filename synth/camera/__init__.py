@@ -1,0 +1,1 @@
+"""Cameras: presets, poses, projection and trajectories."""

@@ -1,0 +1,1 @@
+"""Datasets on disk: BOP records, truth, contact sheet, integrity and replay."""

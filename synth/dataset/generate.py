@@ -1,0 +1,192 @@
+"""Generating a dataset: scenes in parallel, going on where an interrupted run stopped."""
+
+import shutil
+import sys
+from collections.abc import Iterator, Sequence
+from concurrent.futures import Executor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from pathlib import Path
+from typing import NoReturn
+
+from tqdm import tqdm
+
+from synth.dataset.files import plain, read_json, write_json
+from synth.dataset.integrity import lost_files, scenes_of
+from synth.dataset.workers import worker_pool
+from synth.dataset.write import PARTIAL, identity, scene_name, write_common, write_scene
+from synth.errors import InputError
+from synth.render import choose_backend
+from synth.render.backends import BACKENDS
+from synth.spec import RendererName, SceneSpec
+
+
+def generate_dataset(
+    spec: SceneSpec,
+    out: Path,
+    *,
+    jobs: int = 1,
+    show_progress: bool = False,
+    backend: RendererName | None = None,
+) -> None:
+    """Write the dataset of a spec into a folder; scenes that are whole already are kept.
+
+    `backend` takes the place of the spec's renderer, whose name the manifest keeps.
+
+    The same spec gives the same bytes, whatever the number of processes and however often the run
+    was interrupted. Rendering takes place in fresh processes, one scene at a time in each. Scenes
+    of a finished dataset that have lost a file are made again. A run that fails before any scene
+    is whole leaves nothing behind.
+
+    Raises:
+        InputError: `out` is a file, a folder of something else or the dataset of another spec;
+            the rocks do not fit on the ground, or the files not on the disk.
+        MissingBackendError: the machine lacks the renderer.
+    """
+    if jobs < 1:
+        raise InputError(f"jobs: expected at least 1, found {jobs}")
+    made = not out.is_dir()
+    fresh = made or not any(out.iterdir())
+    backend = _claim(spec, out, backend or spec.renderer)
+    lost = lost_files(out)
+    if lost:
+        _drop(lost, out, show_progress=show_progress)
+    missing = [index for index in range(spec.scenes) if not (out / scene_name(index)).is_dir()]
+    if missing or not (out / "manifest.json").is_file():
+        with worker_pool(min(jobs, max(len(missing), 1))) as pool:
+            bar = _Progress(spec.scenes, len(missing), show=show_progress)
+            try:
+                for name in _rendered(pool, spec, missing, backend, out):
+                    bar.advance(name)
+            except InputError:
+                if fresh and not bar.advanced:
+                    _sweep(out, made=made)
+                raise
+            finally:
+                bar.close()
+            write_common(spec, backend, out, pool)
+    shutil.rmtree(out / PARTIAL, ignore_errors=True)
+
+
+class _Progress:
+    """A bar on a terminal, a line for each scene elsewhere."""
+
+    def __init__(self, scenes: int, missing: int, *, show: bool) -> None:
+        self._lines = show and not sys.stderr.isatty()
+        self._scenes, self._there, self.advanced = scenes, scenes - missing, 0
+        self._bar: tqdm[NoReturn] = tqdm(
+            total=scenes,
+            initial=self._there,
+            desc="scenes",
+            unit="scene",
+            disable=not show or self._lines,
+        )
+
+    def advance(self, name: str) -> None:
+        """Count one scene as written."""
+        self.advanced += 1
+        self._bar.update()
+        if self._lines:
+            done = self._there + self.advanced
+            print(f"scene {name} written ({done} of {self._scenes})", file=sys.stderr)
+
+    def close(self) -> None:
+        """Leave the terminal tidy."""
+        self._bar.close()
+
+
+def _sweep(out: Path, *, made: bool) -> None:
+    """Take away all that this run has written, and the folder if the run made it."""
+    for path in out.iterdir():
+        shutil.rmtree(path)
+    if made:
+        out.rmdir()
+
+
+def _drop(lost: Sequence[str], out: Path, *, show_progress: bool) -> None:
+    """Take away the scenes that miss files, and the manifest, so that they are made again."""
+    scenes = scenes_of(lost)
+    if show_progress:
+        what = f"making {len(scenes)} scene(s) again" if scenes else "writing it again"
+        print(f"{out}: {lost[0]} is missing ({len(lost)} in all): {what}", file=sys.stderr)
+    (out / "manifest.json").unlink()
+    for index in scenes:
+        shutil.rmtree(out / scene_name(index), ignore_errors=True)
+
+
+def _claim(spec: SceneSpec, out: Path, renderer: RendererName) -> RendererName:
+    """Make sure that `out` is free or holds this very dataset; return the backend to use.
+
+    A run leaves its identity beside its unfinished scenes from the start, so that the next can
+    tell; `auto` sticks to the backend that a dataset was begun with.
+    """
+    if out.exists() and not out.is_dir():
+        raise InputError(f"{out}: expected a folder, found a file")
+    if out.is_symlink() and not out.exists():
+        raise InputError(f"{out}: expected a folder, found a link to nowhere")
+    begun = next((path for path in _identity_files(out) if path.is_file()), None)
+    if begun is None:
+        if out.is_dir() and any(path.name != PARTIAL for path in out.iterdir()):
+            raise InputError(f"{out}: expected an empty folder or a dataset, found other files")
+        backend = choose_backend(renderer)
+        _begin(spec, backend, out)
+        return backend
+    found = read_json(begun)
+    recorded = found.get("backend")
+    wanted = recorded if renderer == "auto" and recorded in BACKENDS else renderer
+    backend = choose_backend(wanted)
+    ours, theirs = _leaves(plain(identity(spec, backend))), _leaves(found)
+    differing = [key for key in ours if key != "spec.renderer" and theirs.get(key) != ours[key]]
+    if differing:
+        key = differing[0]
+        raise InputError(
+            f"{out}: expected an empty folder or this very dataset, with {key} {ours[key]}, "
+            f"found one with {theirs.get(key)}"
+        )
+    _begin(spec, backend, out)
+    return backend
+
+
+def _leaves(table: object, prefix: str = "") -> dict[str, object]:
+    """Return the values of nested tables under their dotted names."""
+    if not isinstance(table, dict):
+        return {prefix: table}
+    leaves: dict[str, object] = {}
+    for key, value in table.items():
+        leaves.update(_leaves(value, f"{prefix}.{key}" if prefix else str(key)))
+    return leaves
+
+
+def _identity_files(out: Path) -> Sequence[Path]:
+    return (out / "manifest.json", out / PARTIAL / "identity.json")
+
+
+def _begin(spec: SceneSpec, backend: RendererName, out: Path) -> None:
+    """Leave the run's identity beside its unfinished scenes, written whole or not at all."""
+    try:
+        (out / PARTIAL).mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"{out}: expected a folder to write to, found {error.strerror}") from error
+    draft = out / PARTIAL / "identity.draft"
+    write_json(draft, identity(spec, backend))
+    draft.replace(out / PARTIAL / "identity.json")
+
+
+def _rendered(
+    pool: Executor, spec: SceneSpec, indices: Sequence[int], backend: RendererName, out: Path
+) -> Iterator[str]:
+    """Write scenes and yield their names; the first failure stops those not begun and is raised."""
+    futures = [pool.submit(write_scene, spec, index, backend, out) for index in indices]
+    try:
+        for future in as_completed(futures):
+            yield future.result()
+    except BrokenProcessPool as error:
+        raise InputError(
+            f"{out}: expected rendering processes to live, found one killed: "
+            "with fewer --jobs they need less memory"
+        ) from error
+    except OSError as error:
+        pool.shutdown(wait=True, cancel_futures=True)
+        raise InputError(f"{out}: expected room for files, found {error.strerror}") from error
+    except BaseException:
+        pool.shutdown(wait=True, cancel_futures=True)
+        raise

@@ -1,0 +1,44 @@
+"""Whether a finished dataset is whole: the files of its manifest that are no longer there."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from synth.dataset.bop import MAX_ROCKS
+from synth.dataset.files import read_json
+from synth.errors import InputError
+
+_DIGITS = 6  # of the numbers in file names
+
+
+def lost_files(out: Path) -> list[str]:
+    """Return the paths that the manifest names and the folder lacks, in rising order.
+
+    Without a manifest the dataset is not finished, and nothing is lost.
+
+    Raises:
+        InputError: the manifest lacks its table of files.
+    """
+    manifest = out / "manifest.json"
+    if not manifest.is_file():
+        return []
+    files = read_json(manifest).get("files")
+    if not isinstance(files, dict):
+        raise InputError(f"{manifest}: files: expected paths with their SHA-256, found {files!r}")
+    return sorted(name for name in files if not (out / name).is_file())
+
+
+def scenes_of(names: Sequence[str]) -> list[int]:
+    """Return the scenes that files of a dataset belong to, in rising order.
+
+    A path begins with its scene's number, or is the model obj_NNNNNN of a rock whose number is
+    1000 × scene + instance + 1; the other files are the whole dataset's.
+    """
+    scenes = set()
+    for name in names:
+        first, _, rest = name.partition("/")
+        if first.isdecimal():
+            scenes.add(int(first))
+        elif rest.startswith("obj_"):
+            number = rest.removeprefix("obj_")[:_DIGITS]
+            scenes.add((int(number) - 1) // MAX_ROCKS)
+    return sorted(scenes)

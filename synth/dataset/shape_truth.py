@@ -1,0 +1,104 @@
+"""scene_gt_shape.json: what is true of each rock, and of its outline in each view."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from synth.camera.camera import Camera, Pose
+from synth.dataset.bop import model_info, object_id
+from synth.render.view import Sight
+from synth.rocks.outlines import Form, mesh_form, plane_across
+from synth.scene.scene import PlacedRock, Scene
+
+Floats = NDArray[np.float64]
+Table = dict[str, Any]
+
+RESOLVABLE_PX = 3.0  # least radius of the corners in the image from which roundness can be told
+
+
+def scene_gt_shape(scene: Scene, index: int, views: Sequence[Sight]) -> Table:
+    """Return scene_gt_shape.json: each rock's truth, and how each view sees it."""
+    forms = [placed.rock.form or mesh_form(placed.rock.mesh) for placed in scene.rocks]
+    return {
+        "rocks": [_rock(placed, index, instance) for instance, placed in enumerate(scene.rocks)],
+        "views": {
+            str(number): [
+                {
+                    "instance": instance,
+                    **_visibility(scene.camera, view, instance),
+                    **_scale(scene.camera, pose, placed),
+                    **_outline(pose, placed, form),
+                }
+                for instance, (placed, form) in enumerate(zip(scene.rocks, forms, strict=True))
+            ]
+            for number, (pose, view) in enumerate(zip(scene.poses, views, strict=True))
+        },
+    }
+
+
+def _rock(placed: PlacedRock, index: int, instance: int) -> Table:
+    rock, truth = placed.rock, placed.rock.truth
+    return {
+        "instance": instance,
+        "obj_id": object_id(index, instance),
+        "family": rock.family,
+        "source": rock.source,
+        "knobs": rock.knobs,
+        "half_axes_box_m": truth.half_axes_box_m,
+        "half_axes_inertia_m": truth.half_axes_inertia_m,
+        "maximum_projection_sphericity": truth.maximum_projection_sphericity(),
+        "maximum_projection_sphericity_inertia": truth.maximum_projection_sphericity_inertia(),
+        "krumbein_sphericity": truth.krumbein_sphericity(),
+        "wadell_sphericity": truth.wadell_sphericity(),
+        "volume_m3": truth.volume_m3,
+        "area_m2": truth.area_m2,
+        "roundness": truth.roundness,
+        "radius_m": truth.radius_m,
+        "relief_rms_m": truth.relief_rms_m,
+        "relief_degrees": truth.relief_degrees,
+        "buried_fraction": placed.buried_fraction,
+        "albedo": placed.albedo,
+        "centre_m": placed.position_m,
+        "rotation_model_to_world": placed.model_to_world.ravel(),
+        "model_mm": model_info(rock.mesh),
+    }
+
+
+def _visibility(camera: Camera, view: Sight, instance: int) -> Table:
+    count_all = int(view.silhouettes[instance].sum())
+    count_visible = int((view.labels == instance + 1).sum())
+    left, top, right, bottom = view.boxes_px[instance]
+    inside = left >= -0.5 and top >= -0.5
+    inside &= right <= camera.width - 0.5 and bottom <= camera.height - 0.5
+    return {
+        "visible_fraction": count_visible / count_all if count_all else 0.0,
+        "truncated": not inside,
+    }
+
+
+def _scale(camera: Camera, pose: Pose, placed: PlacedRock) -> Table:
+    """Return the size of a pixel at the centroid, and whether the corners' radius fills three."""
+    depth_m = float(pose.camera_points_m(placed.position_m)[2])
+    pixel_m = depth_m / np.sqrt(camera.fx * camera.fy)
+    radius_m = placed.rock.truth.radius_m
+    return {
+        "pixel_m": pixel_m,
+        "depth_m": depth_m,
+        "resolvable": None if radius_m is None else bool(radius_m >= RESOLVABLE_PX * pixel_m),
+    }
+
+
+def _outline(pose: Pose, placed: PlacedRock, form: Form) -> Table:
+    """Return the whole rock's outline under rays parallel to the one to its centroid."""
+    ray = placed.model_to_world.T @ (placed.position_m - pose.position_m())
+    outline = form.outline(plane_across(ray))
+    return {
+        "outline_area_m2": outline.area_m2,
+        "outline_perimeter_m": outline.perimeter_m,
+        "outline_axis_ratio": outline.axis_ratio,
+        "outline_roundness": outline.roundness,
+        "outline_roundness_scale": outline.roundness_scale,
+        "outline_exact": placed.rock.form is not None,
+    }

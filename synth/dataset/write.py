@@ -1,0 +1,200 @@
+"""The dataset's folder: one scene at a time, whole or not at all, then what belongs to all."""
+
+import os
+import shutil
+from concurrent.futures import Executor
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from synth.camera.trajectories import camera_distance_m, camera_of, stations
+from synth.dataset import bop
+from synth.dataset.contact_sheet import MOST_SCENES, sheet_row, write_contact_sheet
+from synth.dataset.files import read_json, sha256, write_json, write_ply_mm, write_png
+from synth.dataset.glb import scene_glb
+from synth.dataset.shape_truth import scene_gt_shape
+from synth.light import light_scene
+from synth.render import open_renderer, render_view
+from synth.render.view import Sight
+from synth.scene.scene import Scene, build_scene
+from synth.sensor import Capture, capture_view
+from synth.spec import RendererName, SceneSpec
+
+PARTIAL = ".partial"  # folder of scenes that are not whole yet, gone when the dataset is
+_DISTRIBUTIONS = ("rockshape", "numpy", "scipy", "trimesh", "opencv-python-headless", "embreex")
+_BACKEND_DISTRIBUTION = {"osmesa": "arcade-pyrender", "egl": "arcade-pyrender", "embree": "embreex"}
+
+
+def scene_name(index: int) -> str:
+    """Return a scene's folder: six digits."""
+    return f"{index:06d}"
+
+
+def depth_scale_mm(spec: SceneSpec) -> float:
+    """Return millimetres for a unit of the depth image, one for the whole dataset.
+
+    Rocks lie on the ground within a known reach of the scene's centre. Seen along a level distance
+    that far, and no lower than the centre, none can be deeper in any view than the centre's depth
+    and the reach's share along the axis; that depth is spread over 65,535 steps, rounded up to a
+    hundredth of a millimetre.
+    """
+    reach_m = camera_distance_m(spec.camera) + 2.0 * spec.rocks.diameter_m[1]
+    if spec.population.kind != "count":
+        reach_m = spec.population.radius_m + spec.population.d_max_m
+    farthest_m = max(
+        float(pose.translation_m[2] + reach_m * np.hypot(*pose.world_to_camera[2, :2]))
+        for pose in stations(spec.camera, spec.views)
+    )
+    return float(np.ceil(1000.0 * farthest_m / 65535.0 * 100.0) / 100.0)
+
+
+def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -> str:
+    """Make, render and write one scene; return its folder's name.
+
+    This is the unit of work: it needs nothing but its arguments and may run in any process. The
+    scene is written apart, in a folder of this process's own, and renamed into place when whole,
+    after its models: a process that outlives its run disturbs no other.
+    """
+    scene = build_scene(spec, index)
+    stage = light_scene(scene, spec.sun, spec.surface)
+    renderer = open_renderer(backend, stage, scene.camera)
+    scale_mm = depth_scale_mm(spec)
+    folder = out / PARTIAL / f"{scene_name(index)}.{os.getpid()}"
+    shutil.rmtree(folder, ignore_errors=True)
+    for name in (*_picture_folders(spec), "labels", "mask", "mask_visib", "models"):
+        (folder / name).mkdir(parents=True)
+    views: list[Sight] = []
+    valid = []
+    for number, pose in enumerate(scene.poses):
+        view = render_view(renderer, stage, scene.camera, pose, supersample=spec.camera.supersample)
+        capture = capture_view(
+            view,
+            pose,
+            spec=spec,
+            scene=index,
+            number=number,
+            camera=scene.camera,
+            stage=stage,
+            renderer=renderer,
+        )
+        depth = encode_depth(capture.depth_m, scale_mm)
+        _write_pictures(folder, number, capture, depth)
+        if spec.noise.kind != "none":
+            exact = encode_depth(view.depth_m, scale_mm)
+            write_png(folder / "depth_true" / f"{number:06d}.png", exact)
+        _write_masks(folder, number, view)
+        views.append(view.sight())
+        valid.append(depth > 0)
+    _write_tables(folder, scene, index, views, valid=valid, scale_mm=scale_mm)
+    (folder / "scene.glb").write_bytes(scene_glb(stage))
+    for instance, placed in enumerate(scene.rocks):
+        name = f"obj_{bop.object_id(index, instance):06d}.ply"
+        write_ply_mm(folder / "models" / name, placed.rock.mesh)
+    _publish(folder, out, index)
+    return scene_name(index)
+
+
+def encode_depth(depth_m: NDArray[np.float64], scale_mm: float) -> NDArray[np.uint16]:
+    """Return depth in steps of scale_mm, 0 where nothing is or where 16 bits do not reach."""
+    steps = np.rint(np.nan_to_num(depth_m, nan=0.0) * 1000.0 / scale_mm)
+    return np.where(steps <= 65535, steps, 0).astype(np.uint16)
+
+
+def write_common(
+    spec: SceneSpec, backend: RendererName, out: Path, pool: Executor | None = None
+) -> None:
+    """Write camera.json, models_info.json, the contact sheet and, last, the manifest.
+
+    With a pool its processes draw the sheet, row by row.
+    """
+    scenes = [out / scene_name(index) for index in range(min(spec.scenes, MOST_SCENES))]
+    rows = (map if pool is None else pool.map)(sheet_row, scenes)
+    camera = camera_of(spec.camera)
+    write_json(out / "camera.json", bop.camera_table(camera, depth_scale_mm(spec)))
+    models: dict[str, Any] = {}
+    for index in range(spec.scenes):
+        for rock in read_json(out / scene_name(index) / "scene_gt_shape.json")["rocks"]:
+            models[str(rock["obj_id"])] = rock["model_mm"]
+    write_json(out / "models" / "models_info.json", models)
+    write_contact_sheet(out / "contact_sheet.png", list(rows))
+    manifest = {**identity(spec, backend), "files": file_digests(out)}
+    draft = out / "manifest.draft"
+    write_json(draft, manifest)
+    draft.replace(out / "manifest.json")
+
+
+def file_digests(out: Path) -> dict[str, str]:
+    """Return the SHA-256 of every file of a dataset but its manifest, by path in rising order."""
+    paths = (path for path in out.rglob("*") if path.is_file())
+    names = sorted(path.relative_to(out).as_posix() for path in paths)
+    own = ("manifest.json", "manifest.draft")
+    return {
+        name: sha256(out / name)
+        for name in names
+        if name not in own and not name.startswith(f"{PARTIAL}/")
+    }
+
+
+def identity(spec: SceneSpec, backend: RendererName) -> dict[str, Any]:
+    """Return what the dataset's bytes depend on: spec, backend and versions."""
+    names = (*_DISTRIBUTIONS, _BACKEND_DISTRIBUTION[backend])
+    return {
+        "spec": msgspec.to_builtins(spec),
+        "seed": spec.seed,
+        "backend": backend,
+        "versions": {name: version(name) for name in names},
+    }
+
+
+def _picture_folders(spec: SceneSpec) -> tuple[str, ...]:
+    """Return the folders of a scene's pictures: what the sensor has, and what is true beside it."""
+    names = {"none": (), "stereo": ("depth_true",), "sgm": ("depth_true", "gray_right")}
+    return ("gray", "depth", *names[spec.noise.kind])
+
+
+def _write_pictures(folder: Path, number: int, capture: Capture, depth: NDArray[np.uint16]) -> None:
+    name = f"{number:06d}.png"
+    write_png(folder / "gray" / name, capture.picture)
+    write_png(folder / "depth" / name, depth)
+    if capture.right_picture is not None:
+        write_png(folder / "gray_right" / name, capture.right_picture)
+
+
+def _write_masks(folder: Path, number: int, view: Sight) -> None:
+    stem = f"{number:06d}"
+    write_png(folder / "labels" / f"{stem}.png", view.labels)
+    for instance, silhouette in enumerate(view.silhouettes):
+        name = f"{stem}_{instance:06d}.png"
+        visible = view.labels == instance + 1
+        write_png(folder / "mask" / name, 255 * silhouette.astype(np.uint8))
+        write_png(folder / "mask_visib" / name, 255 * visible.astype(np.uint8))
+
+
+def _write_tables(
+    folder: Path,
+    scene: Scene,
+    index: int,
+    views: list[Sight],
+    *,
+    valid: list[NDArray[np.bool_]],
+    scale_mm: float,
+) -> None:
+    write_json(folder / "scene_camera.json", bop.scene_camera(scene, scale_mm))
+    write_json(folder / "scene_gt.json", bop.scene_gt(scene, index))
+    write_json(folder / "scene_gt_info.json", bop.scene_gt_info(scene, views, valid))
+    write_json(folder / "scene_gt_coco.json", bop.scene_gt_coco(scene, index, views))
+    write_json(folder / "scene_gt_shape.json", scene_gt_shape(scene, index, views))
+
+
+def _publish(folder: Path, out: Path, index: int) -> None:
+    """Move a whole scene into place: its models first, the folder's renaming seals it."""
+    models = out / "models"
+    models.mkdir(exist_ok=True)
+    for path in sorted((folder / "models").iterdir()):
+        path.replace(models / path.name)
+    (folder / "models").rmdir()
+    folder.replace(out / scene_name(index))

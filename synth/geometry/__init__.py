@@ -1,0 +1,1 @@
+"""Geometry: triangle meshes, minimum-volume boxes and inscribed balls."""

@@ -1,0 +1,46 @@
+"""Setting the stage: a scene's bodies under a sun and a sky."""
+
+import numpy as np
+
+from synth.light.body import Body
+from synth.light.lit_scene import Stage
+from synth.light.painter import Painter
+from synth.scene.scene import Scene
+from synth.spec.surface import SurfaceSpec
+from synth.spec.view import SunSpec
+
+
+def light_scene(scene: Scene, sun: SunSpec, surface: SurfaceSpec | None = None) -> Stage:
+    """Return the scene's surfaces with a painter that knows their light."""
+    surface = SurfaceSpec() if surface is None else surface
+    rocks = tuple(
+        Body(
+            vertices_m=placed.mesh.vertices_m,
+            faces=placed.mesh.faces,
+            normals=placed.mesh.normals,
+            albedo=placed.albedo,
+            model_to_world=placed.model_to_world,
+            position_m=placed.position_m,
+        )
+        for placed in scene.rocks
+    )
+    ground = tuple(
+        Body(
+            vertices_m=mesh.vertices_m,
+            faces=mesh.faces,
+            normals=mesh.normals,
+            albedo=surface.ground_albedo,
+            model_to_world=np.eye(3),
+            position_m=np.zeros(3),
+        )
+        for mesh in scene.ground.meshes()
+    )
+    plane = scene.ground.plane_normal()
+    up = scene.ground.normal()
+    return Stage(
+        rocks=rocks,
+        ground=ground,
+        plane_normal=up,
+        rise_m=max(float((body.vertices_m @ up).max()) for body in ground),
+        painter=Painter(rocks, ground, plane, sun, surface),
+    )

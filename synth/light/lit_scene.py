@@ -1,0 +1,18 @@
+"""The stage: all surfaces of a scene as triangles, ready to be measured and painted."""
+
+from dataclasses import dataclass
+
+from synth.geometry.mesh import Floats
+from synth.light.body import Body
+from synth.light.painter import Painter
+
+
+@dataclass(frozen=True, eq=False)
+class Stage:
+    """Rocks have labels, the ground's bodies have none; the painter makes the image."""
+
+    rocks: tuple[Body, ...]
+    ground: tuple[Body, ...]
+    plane_normal: Floats  # (3,), of the plane through the origin that the ground is or follows
+    rise_m: float  # how far the ground rises above that plane
+    painter: Painter

@@ -1,0 +1,1 @@
+"""Scenes: ground, population, placement and settling of rocks."""

@@ -1,0 +1,187 @@
+"""Scenes: a ground, the rocks that lie on it, the camera and its stations."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import msgspec
+import numpy as np
+
+from synth.camera.camera import Camera, Pose
+from synth.camera.trajectories import camera_distance_m, camera_of, stations
+from synth.geometry.mesh import Floats, Mesh
+from synth.rocks import Rock, quarry
+from synth.scene.ground import Ground, make_ground
+from synth.scene.placement import Yard, frustum, refuse_crowd, scatter, strew
+from synth.scene.population import draw_diameters_m
+from synth.scene.settling import buried_fraction, settle, shortest_turn
+from synth.spec import SceneSpec
+
+_LYING, _GROUND, _POPULATION = 1, 2, 3  # children of the scene's seed
+_ROOM_M = 0.4  # kept free of a population's rocks round the foot of each station
+_CROWD, _SAMPLE = 24, 12  # more rocks than the first are tried with the second before all are made
+_FOOT = 0.15  # vertices in this lowest share of a rock's height are its foot
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedRock:
+    """A rock and where it lies."""
+
+    rock: Rock
+    model_to_world: Floats  # (3, 3) rotation
+    position_m: Floats  # (3,), the centroid in the world
+    albedo: float
+    mesh: Mesh  # in the world
+    buried_fraction: float = 0.0  # share of its volume below the ground
+
+
+@dataclass(frozen=True, eq=False)
+class _Standing:
+    """A rock that has settled, on the vertical through the origin."""
+
+    rock: Rock
+    turn: Floats  # (3, 3), model to world
+    height_m: float  # of the centroid
+    mesh: Mesh
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """Rocks on the ground, the camera and its stations."""
+
+    rocks: tuple[PlacedRock, ...]
+    camera: Camera
+    poses: tuple[Pose, ...]
+    ground: Ground
+
+
+def build_scene(spec: SceneSpec, index: int) -> Scene:
+    """Return scene `index` of a dataset, a function of its arguments alone.
+
+    What can be switched on draws from generators of its own, so that it does not change the rest.
+
+    Raises:
+        InputError: the rocks do not fit.
+    """
+    rng = np.random.default_rng([spec.seed, index])
+    camera, poses = camera_of(spec.camera), stations(spec.camera, spec.views)
+    counted = spec.population.kind == "count"
+    reach_m = camera_distance_m(spec.camera) if counted else spec.population.radius_m
+    ground = make_ground(spec.ground, radius_m=reach_m, rng=_child(spec, index, _GROUND))
+    lying = _child(spec, index, _LYING)
+    yard = Yard(
+        reach_m=reach_m,
+        spacing=spec.rocks.spacing,
+        frustums=[frustum(camera, pose) for pose in poses],
+        gradient=ground.gradient,
+    )
+    if counted and spec.rocks.count > _CROWD:
+        _refuse_crowd(spec, yard, ground, rng=np.random.default_rng([spec.seed, index]))
+    rocks = quarry(spec.rocks, rng=rng) if counted else _population(spec, index)
+    falling = None if spec.ground.resting == "flattest" else lying
+    standing = [_stood(rock, ground, rng=rng, falling=falling) for rock in rocks]
+    meshes = [one.mesh for one in standing]
+    if counted:
+        places_m = scatter(meshes, yard, rng=rng)
+    else:
+        places_m = strew(meshes, spec.population, keep_out_m=_feet_m(poses), rng=lying)
+    albedos = rng.uniform(*spec.rocks.albedo, size=len(meshes))
+    burials = lying.uniform(*spec.ground.burial, size=len(meshes))
+    placed = tuple(
+        _lay(one, place, ground, burial=burial, albedo=float(albedo))
+        for one, place, burial, albedo in zip(standing, places_m, burials, albedos, strict=True)
+    )
+    return Scene(rocks=placed, camera=camera, poses=tuple(poses), ground=ground)
+
+
+def _child(spec: SceneSpec, index: int, key: int) -> np.random.Generator:
+    return np.random.default_rng([spec.seed, index, key])
+
+
+def _population(spec: SceneSpec, index: int) -> list[Rock]:
+    """Return a population's rocks, largest first; D is the mean of length and width, a + b."""
+    rng = _child(spec, index, _POPULATION)
+    rocks = []
+    for diameter_m in draw_diameters_m(spec.population, rng=rng):
+        ratio = rng.uniform(*spec.rocks.b_over_a)
+        longest_m = 2.0 * diameter_m / (1.0 + ratio)
+        one = msgspec.structs.replace(
+            spec.rocks,
+            count=1,
+            series="random",
+            diameter_m=(longest_m, longest_m),
+            b_over_a=(ratio, ratio),
+        )
+        rocks += quarry(one, rng=rng)
+    return rocks
+
+
+def _feet_m(poses: Sequence[Pose]) -> Floats:
+    """Return the places below the stations with the room to keep there, (n, 3)."""
+    return np.array([[*pose.position_m()[:2], _ROOM_M] for pose in poses])
+
+
+def _onto(ground: Ground) -> Floats:
+    """Return the rotation that lays what stands upright onto the slope."""
+    return shortest_turn(np.array([0.0, 0.0, 1.0]), ground.normal())
+
+
+def _stood(
+    rock: Rock,
+    ground: Ground,
+    *,
+    rng: np.random.Generator,
+    falling: np.random.Generator | None,
+) -> _Standing:
+    """Return a rock settled and turned onto the slope, on the vertical through the origin."""
+    _, turn, height_m = settle(rock, yaw_rad=rng.uniform(0.0, 2.0 * np.pi), rng=falling)
+    if ground.gradient.any():
+        turn = _onto(ground) @ turn
+    mesh = rock.mesh.moved(turn, np.array([0.0, 0.0, height_m]))
+    return _Standing(rock=rock, turn=turn, height_m=height_m, mesh=mesh)
+
+
+def _refuse_crowd(spec: SceneSpec, yard: Yard, ground: Ground, *, rng: np.random.Generator) -> None:
+    """Raise InputError if by far not all rocks fit: a few are made and laid over and over.
+
+    With the scene's own seed they are of the scene's own forms.
+    """
+    sample = quarry(msgspec.structs.replace(spec.rocks, count=_SAMPLE), rng=rng)
+    meshes = [_stood(rock, ground, rng=rng, falling=None).mesh for rock in sample]
+    refuse_crowd(spec.rocks.count, meshes, yard, rng=rng)
+
+
+def _lay(
+    standing: _Standing,
+    place_m: Floats,
+    ground: Ground,
+    *,
+    burial: float,
+    albedo: float,
+) -> PlacedRock:
+    """Return a rock lying at a place: on the plane, in ripples to the mean depth of its foot.
+
+    `burial` is the share of its height above the lowest point that sinks below the ground.
+    """
+    rock, turn, above_m = standing.rock, standing.turn, standing.height_m
+    if ground.gradient.any() or ground.ripple_height_m or burial:
+        start = np.array([place_m[0], place_m[1], 0.0])
+        body = rock.mesh.moved(turn, start).vertices_m
+        clearances_m = body[:, 2] - ground.heights_m(body[:, :2])
+        low_m, tall_m = float(clearances_m.min()), float(np.ptp(clearances_m))
+        if ground.ripple_height_m:
+            foot = body[body[:, 2] <= body[:, 2].min() + _FOOT * np.ptp(body[:, 2])]
+            low_m += float(ground.ripples_m(foot[:, :2]).std())
+        above_m = burial * -tall_m - low_m
+    position_m = np.array([place_m[0], place_m[1], above_m])
+    mesh = rock.mesh.moved(turn, position_m)
+    clearances_m = mesh.vertices_m[:, 2] - ground.heights_m(mesh.vertices_m[:, :2])
+    return PlacedRock(
+        rock=rock,
+        model_to_world=turn,
+        position_m=position_m,
+        albedo=albedo,
+        mesh=mesh,
+        buried_fraction=buried_fraction(
+            mesh, np.where(clearances_m > -1e-9, np.maximum(clearances_m, 0.0), clearances_m)
+        ),
+    )

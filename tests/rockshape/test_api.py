@@ -1,0 +1,155 @@
+"""`rockshape.measure`: what people with arrays call."""
+
+import dataclasses
+import subprocess
+import sys
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import rockshape
+from rockshape.pipeline import measure as measure_observation
+from tests import solids
+
+DISC = solids.disc(20).astype(np.int32)
+
+
+def ball() -> np.ndarray:
+    """A ball over a plane: points (rows, cols, 3)."""
+    return solids.nearest(
+        solids.plane_range(solids.CAMERA, normal=np.array([0.0, 0.0, -1.0]), offset_m=-2.0),
+        solids.ellipsoid_range(
+            solids.CAMERA,
+            centre_m=np.array([0.05, 0.0, 1.9]),
+            half_axes_m=np.array([0.2, 0.2, 0.2]),
+            axes=np.eye(3),
+        ),
+    )
+
+
+def test_points_depth_and_an_observation_give_one_table() -> None:
+    points = ball()
+    by_points = rockshape.measure(range_m=points, camera=solids.CAMERA)
+    by_depth = rockshape.measure(range_m=points[..., 2], camera=solids.CAMERA)
+    image = np.zeros(solids.CAMERA.shape, dtype=np.float32)
+    observed = measure_observation(
+        rockshape.Observation(image=image, points_m=points, camera=solids.CAMERA)
+    )
+    assert len(by_points.rocks) == 1
+    pd.testing.assert_frame_equal(by_points.to_frame(), observed.to_frame())
+    # unprojecting z-depth repeats the same products, to rounding
+    pd.testing.assert_frame_equal(by_depth.to_frame(), observed.to_frame(), rtol=1e-6)
+
+
+def test_an_image_alone_is_enough_for_the_robust_method() -> None:
+    y, x = np.mgrid[:120, :160]
+    image = np.where(np.hypot(x - 80, y - 60) < 30, 0.8, 0.3)
+    measured = rockshape.measure(image, method="robust")
+    assert measured.labels.shape == image.shape
+    assert measured.ground is None
+
+
+def test_the_camera_is_found_from_points_alone() -> None:
+    assert len(rockshape.measure(range_m=ball()).rocks) == 1
+
+
+@pytest.mark.parametrize("nothing", [0.0, -1.0, np.nan, np.inf])
+def test_every_way_to_say_nothing_was_measured_means_the_same(nothing: float) -> None:
+    depth = ball()[..., 2]
+    depth[100:140, 150:180] = np.nan
+    expected = rockshape.measure(range_m=depth, camera=solids.CAMERA).to_frame()
+    given = np.where(np.isfinite(depth), depth, nothing)
+    before = given.copy()
+    found = rockshape.measure(range_m=given, camera=solids.CAMERA).to_frame()
+    pd.testing.assert_frame_equal(found, expected)
+    np.testing.assert_array_equal(given, before)
+
+
+@pytest.mark.parametrize("kind", [bool, np.uint8, np.uint16, np.int64, np.uint64])
+def test_labels_of_any_whole_type_are_taken(kind: type) -> None:
+    measured = rockshape.measure(labels=DISC.astype(kind))
+    assert [rock.number for rock in measured.rocks] == [1]
+    assert measured.labels.dtype == np.int32
+
+
+@pytest.mark.parametrize(
+    "image",
+    [
+        np.full(DISC.shape, 51, dtype=np.uint8),
+        np.full((*DISC.shape, 3), 13107, dtype=np.uint16),
+        np.full((*DISC.shape, 4), 0.2),
+        np.full((*DISC.shape, 1), 0.2, dtype=np.float32),
+    ],
+    ids=["8 bits", "16 bits colour", "floats with alpha", "one channel"],
+)
+def test_images_of_every_kind_are_drawn_alike(image: np.ndarray) -> None:
+    measured = rockshape.measure(image, labels=DISC)
+    assert np.isfinite(measured.rocks[0].values["axis_ratio"])
+    grey = np.full(DISC.shape, 0.2, dtype=np.float32)
+    np.testing.assert_allclose(rockshape.io.grey.to_grey(image), grey, atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        ({}, "range_m or labels"),
+        ({"image": np.zeros((9, 9))}, "range_m or labels"),
+        ({"range_m": np.ones((9, 9))}, "expected a camera"),
+        ({"range_m": np.ones((9, 9, 4))}, "found (9, 9, 4)"),
+        ({"range_m": np.ones(9)}, "found (9,)"),
+        ({"range_m": np.full((9, 9, 3), "far")}, "found <U3"),
+        ({"range_m": np.ones((9, 9)), "camera": solids.CAMERA}, "depth_m"),
+        ({"labels": np.ones((9, 9))}, "of float64"),
+        ({"labels": np.ones(9, dtype=int)}, "labels: expected"),
+        ({"labels": np.full((9, 9), -1)}, "found -1"),
+        ({"labels": np.full((9, 9), 2**31)}, "found 2147483648"),
+        ({"labels": DISC, "image": np.zeros((9, 9))}, "labels: expected (9, 9)"),
+        ({"labels": DISC, "image": np.zeros(9)}, "image: expected"),
+        ({"labels": DISC, "image": np.zeros(DISC.shape, dtype=np.int32)}, "8 or 16 bits"),
+        ({"labels": DISC, "method": "guess"}, "method: expected"),
+    ],
+)
+def test_arrays_that_do_not_fit_are_refused(arguments: dict, says: str) -> None:
+    with pytest.raises(rockshape.InputError) as refusal:
+        rockshape.measure(**arguments)
+    assert says in str(refusal.value)
+
+
+def test_records_and_their_arrays_are_frozen() -> None:
+    found = rockshape.measure(labels=DISC)
+    rock = found.rocks[0]
+    for array in (found.labels, rock.outline_px):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1
+    for record, name in ((found, "labels"), (rock, "outline_px"), (rock.ellipse, "x")):
+        with pytest.raises(dataclasses.FrozenInstanceError):
+            setattr(record, name, None)
+    assert DISC.flags.writeable
+
+
+def test_importing_rockshape_loads_none_of_what_it_may_need_later() -> None:
+    code = "import sys, rockshape; print(*sys.modules)"
+    loaded = subprocess.run(
+        [sys.executable, "-c", code], check=True, capture_output=True, text=True
+    )
+    assert not {"numpy", "cv2", "scipy", "skimage", "pandas"} & set(loaded.stdout.split())
+
+
+def test_measuring_loads_what_it_needs_and_no_more() -> None:
+    """A picture's range needs no PLY reader, a record no table, labels no page."""
+    code = (
+        "import sys, numpy, rockshape; rockshape.measure(labels=numpy.eye(9, dtype=int));"
+        "print(*sys.modules)"
+    )
+    loaded = subprocess.run(
+        [sys.executable, "-c", code], check=True, capture_output=True, text=True
+    )
+    assert not {"trimesh", "tifffile", "jinja2", "pandas"} & set(loaded.stdout.split())
+
+
+def test_every_name_it_offers_is_there() -> None:
+    for name in rockshape.__all__:
+        assert getattr(rockshape, name) is not None
+    with pytest.raises(AttributeError):
+        _ = rockshape.no_such_name

@@ -1,0 +1,131 @@
+"""What stands out of a rock's ellipsoid."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from rockshape.camera.camera import Camera
+from rockshape.ellipsoid import Ellipsoid
+from rockshape.ground.pixel_noise import RangeNoise
+from rockshape.measures.angularity_3d import angularity_3d
+from rockshape.surface import Relief, measure_relief
+from tests import solids
+
+BODY = Ellipsoid(
+    centre_m=np.array([0.05, -0.1, 2.0]),
+    half_axes_m=np.array([0.35, 0.3, 0.25]),
+    axes=Rotation.from_rotvec([0.4, -0.3, 0.7]).as_matrix(),
+)
+
+
+def seen(body: Ellipsoid, camera: Camera = solids.CAMERA) -> np.ndarray:
+    """Points (rows, cols, 3) of an ellipsoid."""
+    return solids.ellipsoid_range(
+        camera, centre_m=body.centre_m, half_axes_m=body.half_axes_m, axes=body.axes
+    )
+
+
+def known(grid: np.ndarray) -> np.ndarray:
+    return np.asarray(grid[np.isfinite(grid).all(axis=-1)])
+
+
+def dented(points: np.ndarray, height: float, waves: float) -> np.ndarray:
+    """Points moved from the centre by a wave over the unit sphere, height in radii."""
+    sphere = BODY.to_sphere(points)
+    return BODY.from_sphere(sphere * (1 + height * np.cos(waves * sphere[:, :1])))
+
+
+def bend(points: np.ndarray, body: Ellipsoid = BODY) -> float:
+    found = measure_relief(body, points)
+    assert found is not None
+    return found.bend
+
+
+def cut(points: np.ndarray, rounding: float) -> np.ndarray:
+    """The ellipsoid's sphere, cut to a cube of rounded edges about it, by steps to its surface."""
+    sphere = BODY.to_sphere(points)
+    direction = sphere / np.linalg.norm(sphere, axis=1)[:, None]
+    half, reach = 0.85 * (1 - rounding), np.ones(len(points))
+    for _ in range(60):
+        outside = np.maximum(np.abs(reach[:, None] * direction) - half, 0)
+        reach -= np.linalg.norm(outside, axis=1) - 0.85 * rounding
+    return BODY.from_sphere(reach[:, None] * direction)
+
+
+def test_an_ellipsoid_has_none() -> None:
+    # the range is exact
+    assert bend(known(seen(BODY))) < 1e-9
+
+
+def test_a_wave_has_its_own_curvature() -> None:
+    points = known(seen(BODY))
+    # RMS of half the Laplacian of 0.01 cos(k x) over the facing cap; x is one own axis, so that the
+    # wave's length on the chart is its own times the slope of the sphere
+    found = [bend(dented(points, height, 6.0)) for height in (0.01, 0.02)]
+    assert found[1] == pytest.approx(2 * found[0], rel=0.02)
+    assert 0.3 * 0.01 * 36 / 2 / np.sqrt(2) < found[0] < 0.01 * 36 / 2 / np.sqrt(2)
+
+
+def test_sharp_edges_bend_more_than_round_ones() -> None:
+    points = known(seen(BODY))
+    found = [bend(cut(points, rounding)) for rounding in (0.05, 0.2, 0.4, 0.6, 0.9)]
+    assert found == sorted(found, reverse=True)
+    assert found[0] > 1.5 * found[-1]
+
+
+def test_size_place_and_attitude_do_not_count(rng: np.random.Generator) -> None:
+    points = cut(known(seen(BODY)), 0.2)
+    first = bend(points)
+    larger = Ellipsoid(BODY.centre_m * 3, BODY.half_axes_m * 3, BODY.axes)
+    assert bend(points * 3, larger) == pytest.approx(first, rel=1e-9)
+    spin = Rotation.from_rotvec([0.2, 0.3, 0.9]).as_matrix()
+    turned = Ellipsoid(spin @ BODY.centre_m, BODY.half_axes_m, BODY.axes @ spin.T)
+    assert bend(points @ spin.T, turned) == pytest.approx(first, rel=1e-9)
+    # other 4,000 of the points are drawn, and few of them lie on edges
+    order = rng.permutation(len(points))
+    assert bend(points[order]) == pytest.approx(first, rel=0.05)
+    mirrored = Ellipsoid(BODY.centre_m, BODY.half_axes_m, BODY.axes[[1, 0, 2]])
+    swapped = Ellipsoid(BODY.centre_m, BODY.half_axes_m[[1, 0, 2]], mirrored.axes)
+    assert bend(points, swapped) == pytest.approx(first, rel=0.03)
+
+
+@pytest.mark.parametrize("stride", [2, 4, 6])
+def test_a_sparser_grid_tells_nearly_the_same(stride: int) -> None:
+    grid = seen(BODY)
+    whole = bend(cut(known(grid), 0.2))
+    assert bend(cut(known(grid[::stride, ::stride]), 0.2)) == pytest.approx(whole, rel=0.05)
+
+
+def test_holes_and_outliers_move_it_little(rng: np.random.Generator) -> None:
+    points = cut(known(seen(BODY)), 0.2)
+    whole = bend(points)
+    hole = np.linalg.norm(points - points[len(points) // 2], axis=1) > 0.05
+    assert bend(points[hole]) == pytest.approx(whole, rel=0.1)
+    spoiled = points.copy()
+    wild = rng.permutation(len(points))[: len(points) // 10]
+    spoiled[wild] *= 1 + rng.choice([-1, 1], (len(wild), 1)) * rng.uniform(0.1, 0.3, (len(wild), 1))
+    assert bend(spoiled) == pytest.approx(whole, rel=0.25)
+
+
+def test_noise_is_taken_off(rng: np.random.Generator) -> None:
+    grid = seen(BODY)
+    inside = np.isfinite(grid).all(axis=-1)
+    exact = cut(grid[inside], 0.2)
+    noise = RangeNoise(0.0008, 7)  # 3 mm at 2 m
+    depth = np.full(inside.shape, np.nan)
+    depth[inside] = exact[:, 2]
+    error = noise.draw_m(depth, rng=rng)[inside]
+    noisy = exact * (1 + error / exact[:, 2])[:, None]
+    draws = np.column_stack([noise.draw_m(depth, rng=rng)[inside] for _ in range(4)])
+    found = measure_relief(BODY, noisy, draws_m=draws)
+    assert found is not None
+    assert found.noise_bend > 0.1
+    assert found.bend > bend(exact)
+    assert angularity_3d(found) == pytest.approx(bend(exact), rel=0.1)
+
+
+def test_what_noise_or_pixels_hide_is_not_told() -> None:
+    assert np.isnan(angularity_3d(Relief(bend=2.0, noise_bend=1.1, facing=5000)))
+    assert np.isnan(angularity_3d(Relief(bend=2.0, noise_bend=0.1, facing=100)))
+    assert angularity_3d(Relief(bend=0.5, noise_bend=0.6, facing=5000)) == 0
+    assert measure_relief(BODY, known(seen(BODY))[:100]) is None

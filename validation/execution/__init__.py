@@ -1,0 +1,1 @@
+"""Execution: units of work, executors, the result store and the code fingerprint."""

@@ -1,0 +1,25 @@
+"""What one who knows the truth would measure in a designed experiment."""
+
+import pandas as pd
+
+from rockshape.measures import METHODS
+from validation.kinds.design.outlines import TRUTH_OF
+from validation.kinds.design.work import CLEAN
+
+_VIEW = ["experiment", "scene", "instance", "method", "view"]
+
+
+def knowing(records: pd.DataFrame) -> pd.DataFrame:
+    """Return records of designed experiments in which nothing but the view moves a rock's value.
+
+    In every cell and state a measure of the outline is the true number of that view's outline. A
+    measure of the solid has no truth of a view: it is the clean values' mean in that view.
+    """
+    fed = records.copy()
+    view = [fed[name] for name in _VIEW]
+    for column in dict.fromkeys(m.column for measures in METHODS.values() for m in measures):
+        if column in fed:
+            clean = fed[column].where(fed["series"] == CLEAN)
+            source = fed[TRUTH_OF[column]] if column in TRUTH_OF else clean
+            fed[column] = source.groupby(view, sort=False).transform("mean")
+    return fed

@@ -1,0 +1,1 @@
+"""Garden comparison: the paper's tables 4 and 5."""

@@ -1,0 +1,1 @@
+"""Multi-view experiments: the same rocks seen from several views."""

@@ -1,0 +1,185 @@
+"""One scene of an experiment of segmentation: made, segmented in every way, judged."""
+
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import cv2
+import msgspec
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from rockshape.camera.camera import Camera
+from rockshape.ground import fit_ground
+from rockshape.io import read_camera, read_image, read_range
+from rockshape.observation import Observation
+from rockshape.segmentation import Segmentation, segment
+from synth.camera.camera import PRESETS
+from synth.dataset.write import write_common, write_scene
+from synth.render import choose_backend
+from validation.kinds.segmentation.baselines import fixed_height, otsu, plain_watershed
+from validation.kinds.segmentation.judge import Rule, judge
+from validation.kinds.segmentation.truth import ViewTruth, range_counts, view_truth
+from validation.records.join import Place
+from validation.records.pictures import Picture, compress
+from validation.records.truth import read_instances, read_scene_truth
+from validation.suite.experiments import SegmentationExperiment
+
+Labels = NDArray[np.int32]
+Floats = NDArray[np.float64]
+
+MOST_BASELINE_M = 0.424
+TRUE_COLOUR, FOUND_COLOUR = (64, 180, 255), (255, 209, 56)  # RGB
+
+
+@dataclass(frozen=True, eq=False)
+class Segmented:
+    """What one way made of one view."""
+
+    labels: Labels
+    outlines: dict[int, Floats]  # sub-pixel, where there are such
+    ground_sigmas: float  # the plane's RMS error over the range noise there; NaN without
+
+
+def run_scene(
+    experiment: SegmentationExperiment, scene: int, folder: Path
+) -> tuple[pd.DataFrame, tuple[Picture, ...], str]:
+    """Return the records of scene number `scene`, its pictures and the renderer.
+
+    A series is a way and the range it was given: `robust-exact`, `paper-stereo`, `otsu-none`.
+    """
+    spec = msgspec.structs.replace(experiment.scene, seed=experiment.seed + scene)
+    backend = choose_backend(spec.renderer)
+    write_scene(spec, 0, backend, folder)
+    write_common(spec, backend, folder)
+    camera = read_camera(folder / "camera.json")
+    data = folder / "000000"
+    rocks = read_scene_truth(data / "scene_gt_shape.json").views
+    records, pictures = [], []
+    for view in range(spec.views.count):
+        name = f"{view:06d}.png"
+        image = read_image(data / "gray" / name)
+        measured = read_range(data / "depth" / name, shape=image.shape, camera=camera)
+        exact_folder = "depth" if spec.noise.kind == "none" else "depth_true"
+        exact = read_range(data / exact_folder / name, shape=image.shape, camera=camera)
+        instances = read_instances(data / "labels" / name)
+        truth = view_truth(instances, exact, rocks[str(view)], experiment=experiment)
+        for series in experiment.series:
+            way, _, source = series.partition("-")
+            points = {"none": None, "exact": exact}.get(source, measured)
+            counts = truth.shown
+            if source in ("stereo", "sgm"):
+                counts = range_counts(
+                    truth,
+                    measured,
+                    camera,
+                    baseline_m=_baseline_m(experiment),
+                    experiment=experiment,
+                )
+            made = _segment(
+                way, Observation(image=image, points_m=points, camera=camera), truth, experiment
+            )
+            place = Place(experiment.name, "segmentation", series, scene, spec.seed, view, "")
+            records.append(_rows(place, truth, counts, made, exact_m=exact, experiment=experiment))
+            if scene < experiment.pictured and view == 0:
+                shown = draw(image, truth.labels, made.labels)
+                pictures.append(Picture(place, *compress(shown, np.ones_like(truth.labels))))
+    return pd.concat(records, ignore_index=True), tuple(pictures), backend
+
+
+def _baseline_m(experiment: SegmentationExperiment) -> float:
+    return PRESETS[experiment.scene.camera.preset].baseline_m or MOST_BASELINE_M
+
+
+def _segment(
+    way: str, observation: Observation, truth: ViewTruth, experiment: SegmentationExperiment
+) -> Segmented:
+    baselines = {"height": fixed_height, "otsu": otsu, "watershed": plain_watershed}
+    if way in baselines:
+        return Segmented(baselines[way](observation), {}, float("nan"))
+    made = segment(observation, variant="paper" if way == "paper" else "robust")
+    outlines = {one.number: one.outline.points_px for one in made.found if one.outline is not None}
+    return Segmented(
+        made.labels,
+        outlines,
+        _ground_sigmas(way, observation, truth, made=made, experiment=experiment),
+    )
+
+
+def _ground_sigmas(
+    way: str,
+    observation: Observation,
+    truth: ViewTruth,
+    *,
+    made: Segmentation,
+    experiment: SegmentationExperiment,
+) -> float:
+    """RMS height of the true ground above the fitted one, over the range noise of heights there.
+
+    sigma_h = sigma_Z |n . r|, with sigma_Z = Z^2 sigma_d/(f B) of the camera, be the range exact or
+    not.
+    """
+    points, camera = observation.points_m, observation.camera
+    if points is None or camera is None:
+        return float("nan")
+    ground = fit_ground(points, pixel_rad=1 / camera.fx) if way == "robust" else None
+    plane = made.ground
+    if plane is None:
+        return float("nan")
+    height = plane.height_m(truth.ground_m) if ground is None else ground.height_m(truth.ground_m)
+    return float(
+        np.sqrt(np.mean((height / _sigma_h(truth.ground_m, plane.normal, camera, experiment)) ** 2))
+    )
+
+
+def _sigma_h(
+    points_m: Floats, normal: Floats, camera: Camera, experiment: SegmentationExperiment
+) -> Floats:
+    depth = points_m[:, 2]
+    per_m = experiment.scene.noise.disparity_px / (camera.fx * _baseline_m(experiment))
+    return np.asarray(depth**2 * per_m * np.abs(points_m @ normal) / depth)
+
+
+def _rows(
+    place: Place,
+    truth: ViewTruth,
+    counts: NDArray[np.bool_],
+    made: Segmented,
+    *,
+    exact_m: Floats,
+    experiment: SegmentationExperiment,
+) -> pd.DataFrame:
+    rule = Rule(experiment.min_iou, experiment.min_width_px)
+    rows = judge(truth.labels, counts, made.labels, made.outlines, rule)
+    found_m = _depths_m(exact_m, made.labels)
+    depth = [truth.depth_m[number] if number > 0 else found_m[-number] for number in rows["place"]]
+    rows = rows.assign(depth_m=np.array(depth, dtype=np.float64)).drop(columns="place")
+    rows["eligible"] = rows["status"] != "extra"
+    measured = np.isfinite(exact_m[..., 2])
+    view = {
+        "ground_sigmas": made.ground_sigmas,
+        "cover": float((truth.labels[measured] > 0).mean()),
+    }
+    if rows.empty:  # the view's ground counts even where no rock does
+        rows = rows.reindex([0]).assign(status="view", eligible=False)
+    return pd.concat([pd.DataFrame(asdict(place) | view, index=rows.index), rows], axis=1)
+
+
+def _depths_m(exact_m: Floats, labels: Labels) -> Floats:
+    """Mean exact z-depth of each label, by its number; NaN without any."""
+    count = int(labels.max(initial=0)) + 1
+    known = np.isfinite(exact_m[..., 2])
+    total = np.bincount(labels[known], exact_m[..., 2][known], minlength=count)
+    pixels = np.bincount(labels[known], minlength=count)
+    return np.where(pixels > 0, total / np.maximum(pixels, 1), np.nan)
+
+
+def draw(image: NDArray[np.float32], truth: Labels, found: Labels) -> NDArray[np.uint8]:
+    """The image in grey with the true borders in blue and the found ones in yellow over them."""
+    grey = np.clip(np.rint(image * 255), 0, 255).astype(np.uint8)
+    canvas = np.repeat(grey[..., None], 3, axis=2)
+    for labels, colour in ((truth, TRUE_COLOUR), (found, FOUND_COLOUR)):
+        single = labels.astype(np.float32)
+        box = np.ones((3, 3), dtype=np.uint8)
+        canvas[cv2.dilate(single, box) != cv2.erode(single, box)] = colour
+    return canvas

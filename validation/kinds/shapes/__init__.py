@@ -1,0 +1,1 @@
+"""Shape experiments: drawn series of known outlines."""

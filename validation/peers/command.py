@@ -1,0 +1,83 @@
+"""A measure that is a command: it reads image files and writes a CSV."""
+
+import shlex
+import subprocess
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import cv2
+import numpy as np
+import pandas as pd
+
+from validation.errors import InputError
+from validation.peers.view_input import Seen
+
+PLACES = ("{image}", "{labels}", "{range}", "{out}")
+NEEDED = ("{labels}", "{out}")
+LIMIT_S = 600
+MOST_16_BITS = 2**16 - 1
+
+
+def check_command(command: str) -> None:
+    """Refuse a command that cannot be split into words, or does not name what it needs.
+
+    Raises:
+        InputError: says which word is missing.
+    """
+    try:
+        words = shlex.split(command)
+    except ValueError as error:
+        raise InputError(f"--measure: expected a command, found {command!r}: {error}") from error
+    for place in NEEDED:
+        if not any(place in word for word in words):
+            raise InputError(f"--measure: expected {place} in the command, found {command!r}")
+
+
+def run_command(command: str, seen: Seen, *, where: str) -> pd.DataFrame:
+    """Return the table that a command writes to {out}, a CSV with the column `rock`.
+
+    {image} becomes an 8-bit PNG, {labels} a 16-bit PNG, {range} an .npz with `xyz` (rows, cols, 3)
+    in metres, or an empty word without range. No shell takes part.
+
+    Raises:
+        InputError: the command cannot be run, fails, takes too long, or writes no such table.
+    """
+    if seen.labels.max(initial=0) > MOST_16_BITS:
+        raise InputError(f"{where}: expected labels of 16 bits, found {seen.labels.max()}")
+    with TemporaryDirectory(prefix="rockshape-measure-") as folder:
+        files = {place: Path(folder) / name for place, name in zip(PLACES, _NAMES, strict=True)}
+        cv2.imwrite(str(files["{image}"]), np.rint(255 * seen.image.clip(0, 1)).astype(np.uint8))
+        cv2.imwrite(str(files["{labels}"]), seen.labels.astype(np.uint16))
+        words = {place: str(path) for place, path in files.items()}
+        if seen.points_m is None:
+            words["{range}"] = ""
+        else:
+            np.savez(files["{range}"], xyz=seen.points_m)
+        argv = []
+        for word in shlex.split(command):
+            for place, text in words.items():
+                word = word.replace(place, text)  # noqa: PLW2901 (several may stand in a word)
+            argv.append(word)
+        _call(argv, where=where)
+        try:
+            table = pd.read_csv(files["{out}"])
+        except (OSError, ValueError) as error:
+            raise InputError(f"{where}: expected a CSV at {{out}}, found: {error}") from error
+    if "rock" not in table:
+        raise InputError(f"{where}: expected the column rock, found {', '.join(table.columns)}")
+    return table
+
+
+_NAMES = ("image.png", "labels.png", "range.npz", "out.csv")
+
+
+def _call(argv: list[str], *, where: str) -> None:
+    try:
+        done = subprocess.run(argv, capture_output=True, text=True, timeout=LIMIT_S, check=False)
+    except OSError as error:
+        raise InputError(f"{where}: {argv[0]}: {error.strerror}") from error
+    except subprocess.TimeoutExpired as error:
+        raise InputError(f"{where}: expected an end within {LIMIT_S} s, found none") from error
+    if done.returncode != 0:
+        said = done.stderr.strip().splitlines() or ["nothing on stderr"]
+        raise InputError(f"{where}: ended with {done.returncode}: {said[-1]}")

@@ -1,0 +1,124 @@
+"""`--measure` and `--rises-with` as a user writes them."""
+
+import re
+from collections.abc import Sequence
+from pathlib import PurePath
+from typing import cast, get_args
+
+import msgspec
+import numpy as np
+
+from validation.errors import InputError
+from validation.peers.adapters import ADAPTERS
+from validation.peers.command import check_command
+from validation.peers.declare import ATTRIBUTE
+from validation.peers.function import load_function
+from validation.peers.run import run_measure
+from validation.peers.spec import MeasureSpec, Trait
+from validation.peers.view_input import Seen
+
+_NAMED = re.compile(r"(?P<name>[a-z][a-z0-9_-]*)=(?P<rest>.+)", re.DOTALL)
+_FUNCTION = re.compile(r"\w+(\.\w+)*:\w+")
+_PROBE_SIDE_PX = 96
+_BY_NAME: dict[str, Trait] = {
+    "angularity": "angularity",
+    "roundness": "roundness",
+    "sphericity": "form",
+    "axis_ratio": "form",
+}
+
+
+def parse_measure(text: str) -> MeasureSpec:
+    """Return the measure that `[NAME=]package.module:function`, a command or a peer's name means.
+
+    Raises:
+        InputError: it is none of these, or a command without {labels} or {out}.
+    """
+    named = _NAMED.fullmatch(text)
+    name, rest = (named["name"], named["rest"]) if named else ("", text)
+    if rest in ADAPTERS:
+        return _spec(name or rest, function=ADAPTERS[rest])
+    if _FUNCTION.fullmatch(rest):
+        return _spec(name or _name_of(rest.partition(":")[2]), function=rest)
+    if "{" not in rest:
+        raise InputError(
+            "--measure: expected package.module:function, a command with {labels} and {out}, "
+            f"or one of {', '.join(ADAPTERS)}, found {rest!r}"
+        )
+    check_command(rest)
+    return _spec(name or _name_of(PurePath(rest.split()[0]).stem), command=rest)
+
+
+def _name_of(text: str) -> str:
+    return re.sub(r"[^a-z0-9_-]", "_", text.lower()).lstrip("0123456789_-") or "measure"
+
+
+def _spec(name: str, *, function: str | None = None, command: str | None = None) -> MeasureSpec:
+    try:
+        return MeasureSpec(name=name, function=function, command=command)
+    except ValueError as error:
+        raise InputError(f"--measure: {error}: put NAME= before it") from error
+
+
+def parse_rises_with(texts: Sequence[str]) -> dict[str, Trait]:
+    """Return {column: trait} from words COLUMN=TRAIT.
+
+    Raises:
+        InputError: no such trait.
+    """
+    traits = get_args(Trait)
+    found: dict[str, Trait] = {}
+    for text in texts:
+        column, _, trait = text.partition("=")
+        if not column or trait not in traits:
+            raise InputError(f"--rises-with: expected COLUMN={'|'.join(traits)}, found {text!r}")
+        found[column] = cast(Trait, trait)
+    return found
+
+
+def settle(spec: MeasureSpec, asked: dict[str, Trait]) -> MeasureSpec:
+    """Return the measure with what its columns rise with.
+
+    It is run on a small view of two half balls: a measure that does not work is found out before
+    any scene is made, and its columns become known. What a column rises with is said by `asked`,
+    else by the function itself, else by a column's name where that is a trait's own. A column that
+    none names is stored, but not judged.
+
+    Raises:
+        InputError: the measure fails on the probe, lacks a column that was named, or has none that
+            can be judged.
+    """
+    table = run_measure(spec, _probe())
+    columns = [str(name) for name in table.columns if name not in ("rock", "reason")]
+    declared = {name: _BY_NAME[name] for name in columns if name in _BY_NAME}
+    if spec.function is not None:
+        declared |= getattr(load_function(spec.function), ATTRIBUTE, {})
+    declared |= spec.rises_with
+    declared |= {column: trait for column, trait in asked.items() if column in columns}
+    missing = [column for column in declared if column not in columns]
+    if missing:
+        raise InputError(
+            f"--measure {spec.name}: expected the column {missing[0]}, found {', '.join(columns)}"
+        )
+    if not declared:
+        raise InputError(
+            f"--measure {spec.name}: expected --rises-with COLUMN={'|'.join(get_args(Trait))} for "
+            f"one of its columns, found none for {', '.join(columns)}"
+        )
+    return msgspec.structs.replace(spec, rises_with=declared)
+
+
+def _probe() -> Seen:
+    """Return two half balls, 30 cm in radius, on a plane 3 m away, seen from straight above."""
+    focal_px = 300.0
+    rows, cols = np.mgrid[0:_PROBE_SIDE_PX, 0 : 2 * _PROBE_SIDE_PX].astype(np.float64)
+    depth_m = np.full(rows.shape, 3.0)
+    labels = np.zeros(rows.shape, np.int32)
+    for number, centre_col in enumerate((48.0, 144.0), start=1):
+        across_m = np.hypot(rows - 48.0, cols - centre_col) * 3.0 / focal_px
+        rise_m = np.sqrt(np.clip(0.3**2 - across_m**2, 0.0, None))
+        labels[across_m < 0.3] = number
+        depth_m -= rise_m
+    x, y = (cols - _PROBE_SIDE_PX) * depth_m / focal_px, (rows - 48.0) * depth_m / focal_px
+    image = np.where(labels > 0, 0.7, 0.3).astype(np.float32)
+    return Seen(image, labels, np.stack([x, y, depth_m], axis=-1))

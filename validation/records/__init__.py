@@ -1,0 +1,1 @@
+"""Records: measured rocks joined with their truth, and their pictures."""

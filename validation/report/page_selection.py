@@ -1,0 +1,135 @@
+"""Which rocks the page shows one by one: all where they are few, else those worth a look."""
+
+from collections.abc import Iterator
+from functools import cache
+from itertools import chain, zip_longest
+from typing import NamedTuple
+
+import pandas as pd
+
+from rockshape.measures import METHODS
+from validation.execution.run import Run
+from validation.records.pictures import Portrait
+from validation.report.rank_error import farthest
+from validation.scores.expectations import all_claims
+from validation.suite.experiments import SegmentationExperiment, YardExperiment
+
+FARTHEST = 24  # of each claim, and of what was missed or taken for a rock
+_ROCK_BYTES, _VALUE_BYTES = 900, 110  # of a view's row and panel, and of each value there
+_MARK_BYTES = 7  # of a point of an outline
+
+
+class RockKey(NamedTuple):
+    """A true rock, or a thing that a method took for one in one view."""
+
+    experiment: str
+    series: str
+    scene: int
+    instance: int | None
+    view: int = 0  # of a thing that is no true rock
+    method: str = ""
+    rock: int = 0
+
+    @property
+    def id(self) -> str:
+        """The name of the rock's place in the page."""
+        parts = [self.experiment, self.series, str(self.scene)]
+        if self.instance is None:
+            parts += [f"x{self.view}", self.method, str(self.rock)]
+        else:
+            parts.append(str(self.instance))
+        return "rock-" + "-".join(part for part in parts if part)
+
+
+def keys_of(records: pd.DataFrame) -> list[RockKey]:
+    """Return the key of each record."""
+    names = ("experiment", "series", "scene", "view", "method", "instance", "rock")
+    columns = (records[name].astype(object).tolist() for name in names)
+    return [
+        RockKey(experiment, series, int(scene), None, int(view), method, int(rock))
+        if pd.isna(instance)
+        else RockKey(experiment, series, int(scene), int(instance))
+        for experiment, series, scene, view, method, instance, rock in zip(*columns, strict=True)
+    ]
+
+
+def _pictured(run: Run) -> dict[str, int]:
+    return {
+        e.name: e.pictured if isinstance(e, YardExperiment) else 1
+        for e in run.suite.experiments
+        if not isinstance(e, SegmentationExperiment)
+    }
+
+
+def _measured(run: Run) -> pd.DataFrame:
+    """Return the records of rocks and shapes.
+
+    What is no true rock counts once: measures from elsewhere stand on the first method's masks.
+    """
+    records = run.records
+    again = records["status"].eq("extra") & ~records["method"].isin(list(METHODS))
+    return records[~again & records["kind"].ne("segmentation")]
+
+
+def outliers(run: Run) -> list[RockKey]:
+    """Return what is wrong first: missed and taken for rocks, then the farthest of each claim."""
+    measured = _measured(run)
+    missed = measured[measured["status"].eq("missed") & measured["eligible"].astype(bool)]
+    lists = [
+        keys_of(missed.head(FARTHEST)),
+        keys_of(measured[measured["status"].eq("extra")].head(FARTHEST)),
+    ]
+    lists += [
+        keys_of(run.records.loc[farthest(measured, claim, FARTHEST)])
+        for claim in all_claims(run.suite)
+    ]
+    turns = chain.from_iterable(zip_longest(*lists))
+    return list(dict.fromkeys(key for key in turns if key is not None))
+
+
+def _candidates(run: Run) -> Iterator[RockKey]:
+    """Yield the rocks of the pictured scenes, then what is farthest off, then all others."""
+    measured = _measured(run)
+    if measured.empty:
+        return
+    shown = measured["scene"] < measured["experiment"].map(_pictured(run))
+    yield from keys_of(measured[shown])
+    yield from outliers(run)
+    for start in range(0, len(measured), 1000):
+        yield from keys_of(measured.iloc[start : start + 1000])
+
+
+def choose(run: Run, budget_bytes: float) -> dict[RockKey, tuple[Portrait, ...]]:
+    """Return the rocks to show with their portraits, as many as the budget allows."""
+
+    @cache
+    def album(experiment: str, series: str, scene: int) -> dict[RockKey, list[Portrait]]:
+        found: dict[RockKey, list[Portrait]] = {}
+        held = run.albums.get((experiment, series, scene), tuple)()
+        for one in held:
+            place = one.picture.place
+            key = RockKey(experiment, series, scene, one.instance)
+            if one.instance is None:
+                key = key._replace(view=place.view, method=place.method, rock=one.rock or 0)
+            found.setdefault(key, []).append(one)
+        return found
+
+    chosen: dict[RockKey, tuple[Portrait, ...]] = {}
+    columns = sum(len(METHODS[name]) for name in METHODS) + 4 * len(run.suite.measures)
+    for key in _candidates(run):
+        if key in chosen:
+            continue
+        portraits = tuple(album(*key[:3]).get(key, ()))
+        budget_bytes -= _cost(portraits, columns)
+        if budget_bytes < 0:
+            break
+        chosen[key] = portraits
+    return chosen
+
+
+def _cost(portraits: tuple[Portrait, ...], columns: int) -> float:
+    """Return about how many bytes of the page a rock takes."""
+    text = max(1, len(portraits)) * (_ROCK_BYTES + _VALUE_BYTES * columns)
+    pictures = sum(one.picture.size_bytes for one in portraits) * 4 / 3
+    marks = sum(len(mark.outline) / 2 for one in portraits for mark in one.picture.marks)
+    return text + pictures + _MARK_BYTES * marks

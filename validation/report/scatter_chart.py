@@ -1,0 +1,105 @@
+"""Each claim's chart: measured against true, every point a link to its rock."""
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+import numpy as np
+from markupsafe import Markup
+
+from validation.execution.run import Run
+from validation.report.charts import Points, scatter
+from validation.report.format import number
+from validation.report.page_selection import RockKey, keys_of
+from validation.report.rank_error import farthest
+from validation.report.rocks import Measured
+from validation.scores.expectations import Claim, claims_of
+from validation.scores.score import Key, Score
+from validation.scores.titles import title_of, title_of_claim, unit_of
+
+TRUTH_TITLES = {
+    "truth_angularity": "true angularity, 1 − roundness",
+    "truth_roundness": "true roundness",
+    "truth_maximum_projection_sphericity": "true maximum projection sphericity",
+    "truth_axis_ratio": "true axis ratio",
+    "truth_rectangle_ratio": "true short over long side",
+}
+FEW = 30  # points worth a look on a chart that has too many
+
+
+@dataclass(frozen=True)
+class Plot:
+    """A chart with its title and the score that holds its order."""
+
+    title: str
+    chart: Markup
+    tau: Score
+    points: int
+    drawn: int
+
+    @property
+    def shaded(self) -> bool:
+        """Whether only some of the points are marked."""
+        return self.drawn < self.points
+
+
+def tau_name(claim: Claim) -> str:
+    """Return the name of the score that holds a claim's order."""
+    return Key(claim.experiment, claim.method, claim.series, claim.measure, "tau").name
+
+
+def plots(
+    run: Run, experiment: Measured, shown: Collection[RockKey], *, most_points: int
+) -> tuple[Plot, ...]:
+    """Return a chart for each claim; with more points than `most_points`, the farthest alone."""
+    scores = {score.name: score for score in run.scores}
+    return tuple(
+        _plot(run, claim, shown, scores[tau_name(claim)], most_points)
+        for claim in claims_of(run.suite, experiment)
+    )
+
+
+def _plot(run: Run, claim: Claim, shown: Collection[RockKey], tau: Score, most_points: int) -> Plot:
+    records = run.records
+    own = records["experiment"].eq(claim.experiment) & records["method"].eq(claim.method)
+    own &= records["series"].eq(claim.series) & records["eligible"].astype(bool)
+    held = records[own]
+    x = held[claim.truth].to_numpy(dtype=np.float64)
+    y = held[claim.measure].to_numpy(dtype=np.float64)
+    drawn = np.arange(len(held))
+    if len(held) > most_points:
+        worth = held.index.isin(farthest(records, claim, min(FEW, most_points)))
+        worth[: most_points // 2] |= (held["scene"] == 0).to_numpy()[: most_points // 2]
+        drawn = np.flatnonzero(worth)
+    picked = held.iloc[drawn]
+    unit, title = unit_of(claim.measure), title_of_claim(claim)
+    what = "shape" if claim.series else "rock"
+    labels = tuple(
+        f"seed {seed}, view {view + 1}, {what} {instance + 1}: {number(value)}"
+        for seed, view, instance, value in zip(
+            *(picked[name].tolist() for name in ("seed", "view", "instance")),
+            y[drawn],
+            strict=True,
+        )
+    )
+    chart = scatter(
+        Points(
+            x,
+            y,
+            drawn,
+            view=tuple(int(view) for view in picked["view"].tolist()),
+            label=labels,
+            place=tuple(key.id if key in shown else None for key in keys_of(picked)),
+        ),
+        x_title=TRUTH_TITLES[claim.truth],
+        y_title=f"{title}, {unit}" if unit else title,
+        summary=f"{title} against {TRUTH_TITLES[claim.truth]}, one point a rock and view",
+        unshown=f"rule-{claim.experiment}",
+    )
+    name = f"{title_of(claim.measure)}, {claim.method}"
+    return Plot(
+        f"{name}; series {claim.series}" if claim.series else name,
+        chart,
+        tau,
+        points=len(held),
+        drawn=len(drawn),
+    )

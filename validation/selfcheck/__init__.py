@@ -1,0 +1,1 @@
+"""Self-checks of the validation: oracle, shuffled truth and mutations."""

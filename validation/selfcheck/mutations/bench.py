@@ -1,0 +1,135 @@
+"""Views made once, measured anew under each mutation, and held to the suite's gates."""
+
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, replace
+from unittest.mock import patch
+
+import msgspec
+import pandas as pd
+
+from rockshape.measurement import Measurement, to_frame
+from rockshape.measures import METHODS
+from rockshape.pipeline import measure
+from validation.execution.units import MeasuredUnit, units_of
+from validation.execution.views import View, views_of
+from validation.kinds.scoring import gate_scores, score_names
+from validation.records.join import join
+from validation.selfcheck.mutations.mutation import Mutation
+from validation.suite.experiments import DesignExperiment, SegmentationExperiment, YardExperiment
+from validation.suite.gates import evaluate, gates_on
+from validation.suite.suite import Suite
+
+
+@dataclass(frozen=True)
+class Caught:
+    """A mutation and the gates that failed under it, by score and bound."""
+
+    mutation: Mutation
+    gates: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Bench:
+    """A suite's views with the undisturbed measurement of each."""
+
+    suite: Suite
+    views: tuple[tuple[View, Measurement], ...]
+    records: pd.DataFrame
+
+    def failing(self, records: pd.DataFrame) -> tuple[str, ...]:
+        """Return the gates that records fail."""
+        results = evaluate(self.suite.gates, gate_scores(self.suite, self.suite.gates, records))
+        return tuple(
+            f"{r.gate.score} {r.gate.relation} {r.gate.bound:g}" for r in results if not r.passed
+        )
+
+    def first_scenes(self, experiments: tuple[str, ...]) -> pd.DataFrame:
+        """Return the undisturbed records with the first scene alone of some experiments."""
+        later = self.records["experiment"].isin(experiments) & (self.records["scene"] > 0)
+        return self.records[~later]
+
+    def catch(self, mutation: Mutation) -> Caught:
+        """Return what the gates say of a mutation."""
+        own = self.records["experiment"].isin(mutation.experiments)
+        parts = [self.records[~own]]
+        for view, found in self.views:
+            if view.place.experiment not in mutation.experiments:
+                continue
+            if view.place.kind == "yard" and view.place.scene > 0 and mutation.measures_anew:
+                continue
+            parts.append(_mutated(view, found, mutation))
+        records = pd.concat(parts, ignore_index=True)
+        if mutation.records is not None:
+            records = mutation.records(records)
+        return Caught(mutation, self.failing(records))
+
+
+def _joined(view: View, found: Measurement, table: pd.DataFrame) -> pd.DataFrame:
+    place = replace(view.place, method=found.method)
+    return join(place, view.truth, view.instances, found.labels, table, min_iou=view.min_iou)
+
+
+@contextmanager
+def _measures(method: str, evaluate_by_column: Mapping[str, object]) -> Iterator[None]:
+    """Let the method consist of the mutated measures alone."""
+    whole = METHODS[method]
+    METHODS[method] = tuple(
+        replace(measure, evaluate=evaluate_by_column[measure.column])  # type: ignore[arg-type]
+        for measure in whole
+        if measure.column in evaluate_by_column
+    )
+    try:
+        yield
+    finally:
+        METHODS[method] = whole
+
+
+def _mutated(view: View, found: Measurement, mutation: Mutation) -> pd.DataFrame:
+    table = to_frame(found)
+    if mutation.evaluate:
+        with _measures(found.method, mutation.evaluate):
+            again = measure(view.observation, method=found.method, labels=found.labels)
+            columns = list(mutation.evaluate)
+            table[columns] = to_frame(again)[columns].to_numpy()
+    if mutation.finds_anew:
+        observe, alter = mutation.observe, mutation.labels
+        seen = view.observation if observe is None else observe(view.observation)
+        labels = view.given if alter is None else alter(found.labels)
+        with ExitStack() as stack:
+            if mutation.patch is not None:
+                stack.enter_context(patch.object(*mutation.patch))
+            found = measure(seen, method=found.method, labels=labels)
+        table = to_frame(found)
+    if mutation.table is not None:
+        table = mutation.table(table)
+    return _joined(view, found, table)
+
+
+def part_of(suite: Suite, *, scenes: int, method: str) -> Suite:
+    """Return a method's part of a suite: its first scenes and the gates on its scores.
+
+    Gates of other methods are left out, and experiments that claim nothing: segmentations, designs.
+    """
+    experiments = tuple(
+        msgspec.structs.replace(e, methods=(method,), scenes=min(scenes, e.scenes))
+        if isinstance(e, YardExperiment)
+        else msgspec.structs.replace(e, methods=(method,))
+        for e in suite.experiments
+        if not isinstance(e, SegmentationExperiment | DesignExperiment)
+    )
+    small = msgspec.structs.replace(suite, experiments=experiments)
+    return msgspec.structs.replace(small, gates=gates_on(suite.gates, score_names(small)))
+
+
+def prepare_bench(suite: Suite, *, scenes: int, method: str) -> Bench:
+    """Make the first scenes of each experiment and measure them by one method."""
+    small = part_of(suite, scenes=scenes, method=method)
+    views = [
+        (view, measure(view.observation, method=method, labels=view.given))
+        for unit in units_of(small)
+        if isinstance(unit, MeasuredUnit)
+        for view in views_of(unit)[0]
+    ]
+    records = [_joined(view, found, to_frame(found)) for view, found in views]
+    return Bench(small, tuple(views), pd.concat(records, ignore_index=True))

@@ -1,0 +1,1 @@
+"""Suites: experiments, sweeps and gates, read from TOML."""

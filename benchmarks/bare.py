@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from synth.camera.camera import Camera, Pose
+from synth.camera.camera import Pose, RenderCamera
 from synth.light import Stage
 from synth.light.photometry import towards_sun
 from synth.light.rays import directions
@@ -26,7 +26,9 @@ _ROWS = 128  # of the supersampled frame at once
 class BareRenderer:
     """One stage, as its backend's library renders it."""
 
-    def __init__(self, backend: RendererName, stage: Stage, camera: Camera, factor: int) -> None:
+    def __init__(
+        self, backend: RendererName, stage: Stage, camera: RenderCamera, factor: int
+    ) -> None:
         self._stage, self._camera, self._fine = stage, camera, camera.refined(factor)
         self._plain = open_renderer(backend, stage, camera)
         self._geometry = open_renderer(backend, stage, self._fine)
@@ -53,7 +55,7 @@ class BareRenderer:
             surfaces.blocked(rays[there] * (0.999 * hits.length[there, None]) + eye_m, sun)
 
 
-def _gl_picture(stage: Stage, camera: Camera) -> Callable[[Pose, tuple[float, float]], Any]:
+def _gl_picture(stage: Stage, camera: RenderCamera) -> Callable[[Pose, tuple[float, float]], Any]:
     """Return a function that draws pyrender's own picture of a stage, with shadows."""
     import pyrender  # noqa: PLC0415 - a process has one OpenGL platform, chosen by now
 

@@ -12,7 +12,7 @@ from PIL import Image
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
-from synth.rocks import Rock
+from synth.rocks import RockModel
 from synth.rocks.ellipsoid import ellipsoid
 from synth.rocks.polyhedron import tangent_cuts
 from synth.rocks.realistic import Realism, realistic
@@ -27,7 +27,7 @@ CAMERA_RAD, SUN = np.deg2rad(28.0), np.array([-0.62, -0.35, 0.62])
 SKY, ALBEDO, GROUND_ALBEDO = 0.22, 0.5, 0.42
 
 
-def picture(rock: Rock, *, yaw_rad: float) -> np.ndarray:
+def picture(rock: RockModel, *, yaw_rad: float) -> np.ndarray:
     """Return a rock on the ground under the sun, (SIZE_PX, SIZE_PX), shadows by rays."""
     planes = ConvexHull(rock.mesh.vertices_m).equations
     lowest = planes[np.argmax(planes[:, 3])]  # the facet nearest to the centroid goes down
@@ -67,7 +67,7 @@ def picture(rock: Rock, *, yaw_rad: float) -> np.ndarray:
     return np.asarray(value.mean(axis=(1, 3)))
 
 
-def polyhedron(half_axes_m: np.ndarray, *, rounding: float, seed: int = 3) -> Rock:
+def polyhedron(half_axes_m: np.ndarray, *, rounding: float, seed: int = 3) -> RockModel:
     """Return a rounded polyhedron, of the first body after a seed that holds its axes."""
     for attempt in range(50):
         body = tangent_cuts(HALF_AXES_M, cuts=13, rng=np.random.default_rng(seed + attempt))
@@ -78,7 +78,7 @@ def polyhedron(half_axes_m: np.ndarray, *, rounding: float, seed: int = 3) -> Ro
     raise UnsettledError
 
 
-def broken(seed: int, **changes: float) -> Rock:
+def broken(seed: int, **changes: float) -> RockModel:
     """Return a realistic rock with some knobs changed."""
     usual = Realism(
         cuts=12,
@@ -93,12 +93,12 @@ def broken(seed: int, **changes: float) -> Rock:
     return realistic(HALF_AXES_M, replace(usual, **changes), rng=np.random.default_rng(seed))
 
 
-def rough(base: Rock, rms: float, degrees: tuple[int, int] = (5, 25)) -> Rock:
+def rough(base: RockModel, rms: float, degrees: tuple[int, int] = (5, 25)) -> RockModel:
     """Return a rock under one relief of a given height."""
     return with_relief(base, relief_rms=rms, degrees=degrees, rng=np.random.default_rng(8))
 
 
-def sheets(scans: list[Path]) -> dict[str, list[Callable[[], Rock]]]:
+def sheets(scans: list[Path]) -> dict[str, list[Callable[[], RockModel]]]:
     """Return the makers of each sheet's five rocks."""
     flat = [HALF_AXES_M * [1.0, k, k**2] for k in (0.7, 0.8, 0.9, 1.0, 1.1)]
     return {

@@ -12,9 +12,9 @@ from scipy.spatial.transform import Rotation
 from scipy.stats import spearmanr
 
 from synth.geometry.min_volume_box import nearby_box
-from synth.rocks import Rock, quarry
+from synth.rocks import RockModel, quarry
 from synth.rocks.ellipsoid import ellipsoid
-from synth.rocks.outlines import Form, Outline, SuperellipsoidForm, mesh_form, plane_across
+from synth.rocks.outlines import Form, OutlineTruth, SuperellipsoidForm, mesh_form, plane_across
 from synth.rocks.outlines.silhouette import BEARINGS
 from synth.rocks.outlines.smooth import DIRECTIONS
 from synth.rocks.realistic import Realism, realistic
@@ -36,10 +36,10 @@ REALISM = Realism(
     relief_degrees=(15, 45),
     subdivisions=6,
 )
-Maker = Callable[[int, int], Rock]  # from a seed and how often the facets' edges are halved
+Maker = Callable[[int, int], RockModel]  # from a seed and how often the facets' edges are halved
 
 
-def rough(base: Callable[[int], Rock]) -> Maker:
+def rough(base: Callable[[int], RockModel]) -> Maker:
     """Return the maker of rocks with the default relief."""
     usual = RocksSpec()
     rms = float(np.mean(usual.relief_rms))
@@ -73,7 +73,7 @@ def makers() -> dict[str, Maker]:
     }
 
 
-def solid_moves(one: Rock, two: Rock) -> dict[str, float]:
+def solid_moves(one: RockModel, two: RockModel) -> dict[str, float]:
     """Return how far the solid's truths move, relatively."""
     return {
         "V": abs(one.truth.volume_m3 / two.truth.volume_m3 - 1.0),
@@ -82,7 +82,7 @@ def solid_moves(one: Rock, two: Rock) -> dict[str, float]:
     }
 
 
-def outline_moves(one: Outline, two: Outline) -> dict[str, float]:
+def outline_moves(one: OutlineTruth, two: OutlineTruth) -> dict[str, float]:
     """Return how far an outline's truths move, relatively."""
     return {
         "A": abs(one.area_m2 / two.area_m2 - 1.0),
@@ -108,7 +108,7 @@ def facets(maker: Maker, seed: int) -> dict[str, float]:
     return solid_moves(one, two) | _worst(pairs)
 
 
-def _turn(one: Rock, two: Rock) -> np.ndarray:
+def _turn(one: RockModel, two: RockModel) -> np.ndarray:
     """Return the rotation from one rock's frame to the other's, of the same body."""
     few = min(len(one.mesh.vertices_m), len(two.mesh.vertices_m))
     # An even mesh's first vertices are those of the coarser one.
@@ -117,7 +117,7 @@ def _turn(one: Rock, two: Rock) -> np.ndarray:
     return np.asarray(left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right)
 
 
-def bearings(rock: Rock) -> dict[str, float]:
+def bearings(rock: RockModel) -> dict[str, float]:
     """Return the moves of silhouettes under halved steps."""
     form = mesh_form(rock.mesh)
     return _worst(
@@ -149,7 +149,7 @@ def quadrature(exponents: tuple[float, float]) -> dict[str, float]:
     } | _worst(pairs)
 
 
-def _form(rock: Rock) -> Form:
+def _form(rock: RockModel) -> Form:
     return rock.form or mesh_form(rock.mesh)
 
 

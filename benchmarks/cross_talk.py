@@ -5,7 +5,7 @@ import argparse
 import numpy as np
 
 from synth.geometry.min_volume_box import spread_directions
-from synth.rocks import Rock, quarry
+from synth.rocks import RockModel, quarry
 from synth.rocks.outlines import mesh_form, plane_across
 from synth.spec.rocks import RocksSpec
 
@@ -29,7 +29,7 @@ TURNED = {
 VIEWS = [plane_across(ray) for ray in spread_directions(12)]
 
 
-def truths(rock: Rock) -> dict[str, float]:
+def truths(rock: RockModel) -> dict[str, float]:
     """Return the truths of a rock that the knobs may move; NaN where it has none."""
     truth = rock.truth
     form = rock.form or mesh_form(rock.mesh)

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import poisson
 
-from synth.errors import InputError
+from synth.errors import SpecError
 from synth.scene.population import covered_share, draw_diameters_m, expected_count, number_per_m2
 from synth.scene.scene import build_scene
 from synth.spec import SceneSpec
@@ -24,7 +24,7 @@ from synth.spec.rocks import RocksSpec
 
 Floats = NDArray[np.float64]
 
-_LEAST_M = (0.1, 0.15, 0.2, 0.3, 0.4, 0.6, 0.8, 1.0, 1.5)
+_MIN_M = (0.1, 0.15, 0.2, 0.3, 0.4, 0.6, 0.8, 1.0, 1.5)
 
 
 def main() -> None:
@@ -45,7 +45,7 @@ def main() -> None:
     for index in range(args.placed):
         try:
             placed.append(_placed_m(spec, args.seed, index))
-        except InputError:
+        except SpecError:
             refused += 1
     print()
     tell(f"placed, {args.layout}, {refused} more refused", spec, placed)
@@ -63,7 +63,7 @@ def tell(title: str, spec: PopulationSpec, fields_m: Sequence[Floats]) -> None:
     print(f"{title}: k = {spec.k:g}, {len(fields_m)} fields of {disc_m2:.1f} m²")
     print(f"rocks in a field: mean {mean:.1f}, formula {expected_count(spec):.1f}")
     print("D (m)   counted   formula   95 % interval     inside")
-    for least_m in _LEAST_M:
+    for least_m in _MIN_M:
         count = int((diameters_m >= least_m * (1.0 - 1e-9)).sum())
         ends = number_per_m2(np.array([least_m, spec.d_max_m]), spec.k)
         expected = float(ends[0] - ends[1]) * area_m2

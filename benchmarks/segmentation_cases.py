@@ -28,7 +28,7 @@ from validation.suite.experiments import SegmentationExperiment
 from validation.suite.suite import load_suite
 
 SERIES = ("robust-exact", "robust-stereo", "robust-sgm", "robust-none")
-FEWEST = 5  # rocks that count in a view
+MIN_ROCKS = 5  # rocks that count in a view
 TOP = 200  # rows of sky left out
 
 
@@ -40,7 +40,7 @@ def chosen(records: pd.DataFrame) -> list[tuple[str, str, int, int, float]]:
         told = []
         for (experiment, scene, view), rows in own.groupby(["experiment", "scene", "view"]):
             status = rows["status"].to_numpy()
-            if np.isin(status, ["matched", "missed"]).sum() >= FEWEST:
+            if np.isin(status, ["matched", "missed"]).sum() >= MIN_ROCKS:
                 told.append((series, str(experiment), int(scene), int(view), f1(status)))
         told.sort(key=lambda one: one[-1])
         some += [told[-1], told[0]]

@@ -22,7 +22,7 @@ from validation.suite.experiments import SegmentationExperiment
 from validation.suite.suite import load_suite
 
 SEEDS = {"sparse": 50_000, "crowded": 50_100, "slope": 50_300}
-LEAST_IOU = 0.5
+MIN_IOU = 0.5
 HIDDEN, SMALL_PX, BURIED = 0.95, 12, 0.15
 
 
@@ -59,7 +59,7 @@ def main() -> None:
                     common = np.bincount(labels[mask], minlength=len(sizes))
                     common[0] = 0
                     best = int(common.argmax())
-                    if common[best] <= LEAST_IOU * (mask.sum() + sizes[best] - common[best]):
+                    if common[best] <= MIN_IOU * (mask.sum() + sizes[best] - common[best]):
                         continue
                     true = by_instance[best - 1]
                     wide, high = (int(np.ptp(axis)) + 1 for axis in np.nonzero(labels == best))

@@ -16,7 +16,7 @@ Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 GREYS = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 255.0)  # of texture
-LEAST_PIXELS = 2000
+MIN_PIXELS = 2000
 LAGS = 17
 
 _FIRST_ORDER = 0.05  # the most that σ_Z over Z may be
@@ -127,7 +127,7 @@ def _rows(rig: Rig, true_px: Floats, errors: Sequence[Floats]) -> Iterator[Row]:
     edges_m = np.geomspace(*np.percentile(true_m, [0.5, 99.5]), _BINS + 1)
     for low_m, high_m in pairwise(edges_m):
         here = (true_m >= low_m) & (true_m < high_m)
-        if here.sum() < LEAST_PIXELS:
+        if here.sum() < MIN_PIXELS:
             continue
         slips_m = [found[here] - true_m[here] for found in found_m]
         if _rms(slips_m[0]) > _FIRST_ORDER * true_m[here].mean():

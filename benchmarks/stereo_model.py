@@ -18,7 +18,7 @@ import matplotlib as mpl
 import msgspec
 import numpy as np
 from numpy.typing import NDArray
-from stereo_compare import GREYS, LAGS, LEAST_PIXELS, Group, Pair, Quality, compared, half_px
+from stereo_compare import GREYS, LAGS, MIN_PIXELS, Group, Pair, Quality, compared, half_px
 
 from synth.light import light_scene
 from synth.render import choose_backend, open_renderer, render_view
@@ -161,7 +161,7 @@ def _print(quality: Quality, groups: Sequence[Group], *, rows: bool) -> None:
     print("  texture, grey levels      " + "".join(f"{low:7g}" for low in GREYS[:-1]))
     for side, name in ((1, "model"), (2, "matcher")):
         cells = [
-            f"{np.sqrt(row[side] / row[0]):7.3f}" if row[0] > LEAST_PIXELS else f"{'-':>7}"
+            f"{np.sqrt(row[side] / row[0]):7.3f}" if row[0] > MIN_PIXELS else f"{'-':>7}"
             for row in table
         ]
         print(f"  RMS disparity, px, {name:7}" + "".join(cells))

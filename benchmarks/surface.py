@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import LSQBivariateSpline, SmoothBivariateSpline, bisplev, bisplrep
 from warm import timed
 
-from rockshape.surface import Knots, Net, Patch, fit_surface
+from rockshape.surface import Knots, Net, SurfacePatch, fit_surface
 from rockshape.surface.basis import evaluate
 
 NOISE_M = 0.001
@@ -25,7 +25,7 @@ def heights_m(u_m: NDArray[np.float64], w_m: NDArray[np.float64]) -> NDArray[np.
     return np.asarray(0.02 * np.sin(31 * u_m) * np.cos(29 * w_m) + 0.05 * np.hypot(u_m, w_m))
 
 
-def dense(patch: Patch, net: Net) -> NDArray[np.float64]:
+def dense(patch: SurfacePatch, net: Net) -> NDArray[np.float64]:
     """Vertices by numpy's least squares on the whole matrix of data by vertices."""
     tables = []
     for knots, place in ((net.u, patch.u_m), (net.w, patch.w_m)):
@@ -48,7 +48,7 @@ def main() -> None:
     rng = np.random.default_rng(arguments.seed)
     u, w = rng.uniform(0, 0.4, (2, arguments.points))
     z = heights_m(u, w) + rng.normal(scale=NOISE_M, size=u.shape)
-    patch = Patch(u_m=u, w_m=w, height_m=z)
+    patch = SurfacePatch(u_m=u, w_m=w, height_m=z)
     net = Net(Knots(arguments.net), Knots(arguments.net))
 
     def rms(values: object) -> float:

@@ -12,7 +12,7 @@ from scipy.optimize import linprog
 from scipy.spatial import ConvexHull
 
 from synth.geometry.mesh import Mesh, area_m2, covariance_m2, volume_m3
-from synth.rocks import Rock, quarry
+from synth.rocks import RockModel, quarry
 from synth.rocks.ellipsoid import ellipsoid_mesh
 from synth.rocks.outlines import (
     EllipsoidForm,
@@ -38,7 +38,7 @@ HALVINGS = 2  # of the datasets' facets' edges in the refined mesh
 EDGE_SPLIT = 16  # the picture's edge pixels are split into so many squared
 
 
-def refined(rock: Rock, halvings: int) -> Mesh:
+def refined(rock: RockModel, halvings: int) -> Mesh:
     """Return the rock's surface with the edges of its facets halved so often."""
     form = rock.form
     if isinstance(form, EllipsoidForm):
@@ -55,7 +55,7 @@ def refined(rock: Rock, halvings: int) -> Mesh:
     return rounded_mesh(body, form.radius_m, split=2**halvings)
 
 
-def solid_errors(rock: Rock, mesh: Mesh) -> dict[str, float]:
+def solid_errors(rock: RockModel, mesh: Mesh) -> dict[str, float]:
     """Return the relative errors of a mesh's volume, area and inertia's half-axes."""
     truth = rock.truth
     half_axes_m = half_axes_of_covariance_m(covariance_m2(mesh))
@@ -66,7 +66,7 @@ def solid_errors(rock: Rock, mesh: Mesh) -> dict[str, float]:
     }
 
 
-def outline_errors(rock: Rock, mesh: Mesh, count: int) -> dict[str, float]:
+def outline_errors(rock: RockModel, mesh: Mesh, count: int) -> dict[str, float]:
     """Return the relative errors of the outline, from the silhouette and from a picture."""
     exact = rock.form.outline(ACROSS)
     flat = mesh_form(mesh).outline(ACROSS)
@@ -84,7 +84,7 @@ def outline_errors(rock: Rock, mesh: Mesh, count: int) -> dict[str, float]:
     return {name: abs(value - 1.0) for name, value in found.items()}
 
 
-def rough_errors(rock: Rock, count: int) -> dict[str, float]:
+def rough_errors(rock: RockModel, count: int) -> dict[str, float]:
     """Return how far trimesh's solid and a picture are from the truth of a body that its mesh is.
 
     trimesh gives the moments of inertia I about the axes; the covariance is (tr I/2 − I)/V.

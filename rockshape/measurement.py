@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
     from rockshape.ground import Plane
-    from rockshape.segmentation import Found
+    from rockshape.segmentation import FoundRock
 
 
 PLACE = ("rock", "row", "col", "area_px", "width_px", "height_px", "truncated", "visible_fraction")
@@ -78,7 +78,7 @@ class Measurement:
     labels: NDArray[np.int32]  # (rows, cols), 0 the ground
     ground: "Plane | None"
     rocks: tuple[Rock, ...]  # in the order of their numbers
-    found: "tuple[Found, ...]" = ()  # how each was found, likewise; empty with given labels
+    found: "tuple[FoundRock, ...]" = ()  # how each was found, likewise; empty with given labels
     described: bool = False  # whether the rocks have descriptors
 
     def __post_init__(self) -> None:
@@ -123,7 +123,7 @@ def to_frame(measurement: Measurement, *, flags: bool = False) -> "pd.DataFrame"
     return frame.astype(_types(names))
 
 
-def _found(found: "Found | None") -> tuple[str, str, float]:
+def _found(found: "FoundRock | None") -> tuple[str, str, float]:
     """How a rock was found, as the columns of FLAGS."""
     if found is None:
         return "labels", "", np.nan

@@ -22,7 +22,7 @@ from rockshape.rock.visibility import visible_fraction
 
 if TYPE_CHECKING:
     from rockshape.ground import Plane
-    from rockshape.segmentation import Found, Variant
+    from rockshape.segmentation import FoundRock, Variant
 
 
 def measure(
@@ -82,14 +82,14 @@ def _whole(shape: tuple[int, ...]) -> tuple[slice, slice]:
 
 def _find(
     observation: Observation, method: str, labels: NDArray[np.int32] | None
-) -> "tuple[_Scene, tuple[Found, ...]]":
+) -> "tuple[_Scene, tuple[FoundRock, ...]]":
     """Where the rocks are and what they stand on; with labels, the latter alone."""
     # takes half a second to import, and outlines without range need none of it
     from rockshape.segmentation import ground_under, segment  # noqa: PLC0415
 
     variant: Variant = "robust" if method == "robust" else "paper"
     points_m, noise = observation.points_m, None
-    found: tuple[Found, ...] = ()
+    found: tuple[FoundRock, ...] = ()
     with one_blas_thread():
         if labels is None:
             segmentation = segment(observation, variant=variant)

@@ -9,11 +9,11 @@ import msgspec
 
 from synth.dataset.generate import generate_dataset
 from synth.dataset.replay import replay_dataset
-from synth.errors import InputError
+from synth.errors import SpecError
 from synth.shapes import NAMES, write_series
 from synth.shapes.write import JITTER_RMS_PX
-from synth.spec import MOST_SCENES, RendererName, SceneSpec, convert_spec, load_spec
-from synth.spec.limits import MOST
+from synth.spec import MAX_SCENES, RendererName, SceneSpec, convert_spec, load_spec
+from synth.spec.limits import MAX_COUNT
 from synth.spec.sensor import NoiseKind
 from synth.spec.view import PresetName
 
@@ -63,7 +63,7 @@ def run(args: argparse.Namespace) -> int:
     """
     if args.kind == "shapes":
         if args.seed < 0:
-            raise InputError(f"--seed: expected 0 or more, found {args.seed}")
+            raise SpecError(f"--seed: expected 0 or more, found {args.seed}")
         write_series(
             args.series,
             args.out,
@@ -74,7 +74,7 @@ def run(args: argparse.Namespace) -> int:
         )
         return 0
     if args.jobs < 1:
-        raise InputError(f"--jobs: expected 1 or more, found {args.jobs}")
+        raise SpecError(f"--jobs: expected 1 or more, found {args.jobs}")
     if args.replay is not None:
         _refuse_beside_replay(args)
         print(replay_dataset(args.replay, args.out, jobs=args.jobs, show_progress=True))
@@ -87,7 +87,7 @@ def _refuse_beside_replay(args: argparse.Namespace) -> None:
     """Refuse options that would describe another dataset than the manifest's."""
     for option in _SPEC_OPTIONS:
         if getattr(args, option) is not None:
-            raise InputError(
+            raise SpecError(
                 f"--{option}: expected none beside --replay, whose manifest holds the spec, "
                 f"found {getattr(args, option)}"
             )
@@ -100,7 +100,7 @@ def _numbers(option: str, text: str | None) -> list[float] | None:
     try:
         return [float(part) for part in text.split(",")]
     except ValueError as error:
-        raise InputError(f"{option}: expected numbers parted by commas, found {text!r}") from error
+        raise SpecError(f"{option}: expected numbers parted by commas, found {text!r}") from error
 
 
 def _spec(args: argparse.Namespace) -> SceneSpec:
@@ -108,12 +108,12 @@ def _spec(args: argparse.Namespace) -> SceneSpec:
     _require("--camera", args.camera, get_args(PresetName))
     _require("--renderer", args.renderer, get_args(RendererName))
     _require("--noise", args.noise, get_args(NoiseKind))
-    for option, most in (("scenes", MOST_SCENES), ("rocks", MOST), ("views", MOST)):
+    for option, most in (("scenes", MAX_SCENES), ("rocks", MAX_COUNT), ("views", MAX_COUNT)):
         value = getattr(args, option)
         if value is not None and not 1 <= value <= most:
-            raise InputError(f"--{option}: expected 1 to {most}, found {value}")
+            raise SpecError(f"--{option}: expected 1 to {most}, found {value}")
     if args.seed is not None and not 0 <= args.seed < _MAX_SEED:
-        raise InputError(f"--seed: expected 0 or more, below 2^63, found {args.seed}")
+        raise SpecError(f"--seed: expected 0 or more, below 2^63, found {args.seed}")
     spec = SceneSpec() if args.spec is None else load_spec(args.spec)
     table = msgspec.to_builtins(spec)
     for part, key, value in (
@@ -132,7 +132,7 @@ def _spec(args: argparse.Namespace) -> SceneSpec:
 
 def _require(option: str, value: str | None, names: Sequence[str]) -> None:
     if value is not None and value not in names:
-        raise InputError(f"{option}: expected {_listed(names)}, found {value!r}")
+        raise SpecError(f"{option}: expected {_listed(names)}, found {value!r}")
 
 
 def _listed(names: Sequence[str]) -> str:

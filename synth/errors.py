@@ -1,7 +1,7 @@
 """What a user or a machine can get wrong; each error carries the command's exit status."""
 
 
-class InputError(ValueError):
+class SpecError(ValueError):
     """Unusable input: the message is one line that says what, where, expected and found."""
 
     exit_status = 2

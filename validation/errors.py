@@ -1,10 +1,8 @@
 """Errors that end a command with one line and an exit status."""
 
+from rockshape.errors import InputError
 
-class InputError(ValueError):
-    """Unusable input: the message says what, where, what was expected and what was found."""
-
-    exit_status = 2
+__all__ = ["InputError", "MissingPackageError", "WorkerError"]
 
 
 class MissingPackageError(RuntimeError):

@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 from rockshape.camera.camera import Camera
 
 SAMPLE = 2000  # pixels used: enough for 1e-2 px, and quick
-FEWEST = 12  # pixels below which seven unknowns are not worth solving for
+MIN_PIXELS = 12  # pixels below which seven unknowns are not worth solving for
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +47,7 @@ def calibrate(points_m: NDArray[np.float64]) -> Resection | None:
     """
     rows, cols = points_m.shape[:2]
     row, col, points = _sample(points_m)
-    if len(row) < FEWEST or np.any(points[:, 2] <= 0):
+    if len(row) < MIN_PIXELS or np.any(points[:, 2] <= 0):
         return None
     across, down = (points[:, :2] / points[:, 2:]).T
     if np.ptp(across) == 0 or np.ptp(down) == 0:
@@ -73,7 +73,7 @@ def resect(points_m: NDArray[np.float64]) -> Resection | None:
     """
     rows, cols = points_m.shape[:2]
     row, col, points = _sample(points_m)
-    if len(row) < FEWEST:
+    if len(row) < MIN_PIXELS:
         return None
     pixels = np.column_stack([col, row]).astype(np.float64)
     middle = np.array([(cols - 1) / 2, (rows - 1) / 2])

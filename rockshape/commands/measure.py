@@ -21,7 +21,7 @@ from rockshape.pipeline import measure
 from rockshape.report.overlay import overlay
 
 HELP = "find the rocks in an image and tell the shape of each"
-MOST_16_BITS = 2**16 - 1
+MAX_UINT16 = 2**16 - 1
 
 
 @dataclass(frozen=True)
@@ -108,9 +108,9 @@ def run(args: argparse.Namespace) -> int:
     if args.range is not None:
         points_m = read_range(args.range, shape=image.shape, camera=camera)
     labels = None if args.labels is None else _read_labels(args.labels, args.image, image.shape)
-    if outputs.labels is not None and labels is not None and labels.max() > MOST_16_BITS:
+    if outputs.labels is not None and labels is not None and labels.max() > MAX_UINT16:
         raise InputError(
-            f"{args.labels}: expected numbers up to {MOST_16_BITS} for --labels-out, "
+            f"{args.labels}: expected numbers up to {MAX_UINT16} for --labels-out, "
             f"found {labels.max()}"
         )
     if points_m is None and labels is None and args.method != "robust":

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.ellipse.direct import FEWEST_POINTS, Ellipse, from_conic
+from rockshape.ellipse.direct import MIN_POINTS, Ellipse, from_conic
 
 _ROUNDS = 20
 _SETTLED = 1e-7  # change of the unit conic in a round
@@ -33,7 +33,7 @@ def fit_arc(points: NDArray[np.float64]) -> Ellipse | None:
     Source: Kanatani, Sugaya and Kanazawa (2016), Ellipse Fitting for Computer Vision, sections
     2.3 and 2.4; Kanatani, Al-Sharadqah, Chernov and Sugaya (2012).
     """
-    if len(points) < FEWEST_POINTS:
+    if len(points) < MIN_POINTS:
         return None
     centre = points.mean(axis=0)
     offset = points - centre

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-FEWEST_POINTS = 6  # one more than an ellipse has unknowns
+MIN_POINTS = 6  # one more than an ellipse has unknowns
 LARGEST = 10.0  # semi-axis in RMS radii of the outline: two parallel lines ask for infinity
 ON_A_LINE = 1e-12  # least over summed spread of points whose ellipse is not determined
 FLATTEST = 1e-3  # axis ratio below which the conic is a pair of lines
@@ -97,7 +97,7 @@ def fit_ellipse(points: NDArray[np.float64]) -> Ellipse | None:
     Source: Fox et al. (2002), equations 3 to 5, after Fitzgibbon, Pilu and Fisher (1999); solved
     after Halíř and Flusser (1998).
     """
-    if len(points) < FEWEST_POINTS:
+    if len(points) < MIN_POINTS:
         return None
     columns = points.T.copy()
     centre = columns.mean(axis=1)

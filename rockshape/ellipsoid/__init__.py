@@ -2,11 +2,11 @@
 
 from rockshape.ellipsoid.constrained_fit import HeldEllipsoid, Resting, fit_held_ellipsoid
 from rockshape.ellipsoid.distance import hausdorff_m, orthogonal_distance_m
-from rockshape.ellipsoid.fit import FEWEST_POINTS, EllipsoidFit, fit_ellipsoid
+from rockshape.ellipsoid.fit import MIN_POINTS, EllipsoidFit, fit_ellipsoid
 from rockshape.ellipsoid.half_axes import Ellipsoid
 
 __all__ = [
-    "FEWEST_POINTS",
+    "MIN_POINTS",
     "Ellipsoid",
     "EllipsoidFit",
     "HeldEllipsoid",

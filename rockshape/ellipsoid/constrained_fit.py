@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.ellipsoid.descent import Descent, descend
-from rockshape.ellipsoid.fit import FEWEST_POINTS
+from rockshape.ellipsoid.fit import MIN_POINTS
 from rockshape.ellipsoid.half_axes import Ellipsoid
 from rockshape.ellipsoid.parameters import Bounds, State
 from rockshape.ellipsoid.residuals import (
@@ -17,8 +17,8 @@ from rockshape.ellipsoid.residuals import (
     rays_to_silhouette,
 )
 
-MOST_POINTS = 600  # of the range, in a fixed shuffle: neighbours tell nearly the same
-MOST_RAYS = 240
+MAX_POINTS = 600  # of the range, in a fixed shuffle: neighbours tell nearly the same
+MAX_RAYS = 240
 SKETCH = 4  # the starts compete on every fourth point and ray
 ROUGH = 0.08  # of the rock's size: standard deviation of rocks from ellipsoids
 GIVE_UP = 3.0  # standard deviations at which a residual weighs a quarter
@@ -73,7 +73,7 @@ def fit_held_ellipsoid(
 
     None for fewer than 30 points, or where they all lie in one place or on one line.
     """
-    if len(points_m) < FEWEST_POINTS:
+    if len(points_m) < MIN_POINTS:
         return None
     middle = np.median(points_m, axis=0)
     spread = np.linalg.eigvalsh(np.cov(points_m.T, bias=True))
@@ -81,10 +81,10 @@ def fit_held_ellipsoid(
     if size == 0 or spread[1] <= 1e-12 * spread[2]:
         return None
     shuffle = np.random.default_rng(0)
-    chosen = shuffle.permutation(len(points_m))[:MOST_POINTS]
+    chosen = shuffle.permutation(len(points_m))[:MAX_POINTS]
     noise = np.broadcast_to(np.asarray(point_sd_m, dtype=np.float64), len(points_m))[chosen] / size
     rays = np.empty((0, 3)) if silhouette is None else silhouette
-    rays = rays[shuffle.permutation(len(rays))[:MOST_RAYS]]
+    rays = rays[shuffle.permutation(len(rays))[:MAX_RAYS]]
     problem = _Held(
         points=np.ascontiguousarray((points_m[chosen] - middle).T / size),
         point_sd=np.sqrt(ROUGH**2 + noise**2),

@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from rockshape.ellipsoid.parameters import Bounds, State
 
-MOST_STEPS = 500
+MAX_STEPS = 500
 SETTLED = 1e-10  # relative fall of the sum of squares at which a descent has converged
-LEAST_DAMPING, MOST_DAMPING = 1e-12, 1e12
+MIN_DAMPING, MAX_DAMPING = 1e-12, 1e12
 TINY = 1e-24
 FLATTEST = 1e-8  # curvature that counts as some, as a share of the largest
 FIRST_DAMPING, NEAR_DAMPING = 1e-3, 1e-6
@@ -61,7 +61,7 @@ def descend(
     cost = problem.cost(state)
     damping, growth = NEAR_DAMPING if whole else FIRST_DAMPING, 2.0
     creeping = bool(whole)
-    for count in range(MOST_STEPS):
+    for count in range(MAX_STEPS):
         gradient, system = problem.derivatives(state, whole=creeping)
         free = _free(state, gradient, bounds)
         system, gradient = system[free[:, None], free], gradient[free]
@@ -80,18 +80,18 @@ def descend(
             if trial_cost < cost:
                 break
             damping, growth = damping * growth, growth * 2
-            if damping > MOST_DAMPING:
+            if damping > MAX_DAMPING:
                 return Descent(state, cost, True, count)
         foreseen = float(-(downhill @ inner) - 0.5 * (values * inner) @ inner)
         gain = (cost - trial_cost) / max(foreseen, TINY)
-        damping = max(damping * max(0.1, 1 - (2 * gain - 1) ** 3), LEAST_DAMPING)
+        damping = max(damping * max(0.1, 1 - (2 * gain - 1) ** 3), MIN_DAMPING)
         growth = 2.0
         fall = cost - trial_cost
         state, cost = trial, trial_cost
         if fall <= enough * cost + TINY:
             return Descent(state, cost, True, count + 1)
         creeping = fall <= CREEPING * cost if whole is None else whole
-    return Descent(state, cost, False, MOST_STEPS)
+    return Descent(state, cost, False, MAX_STEPS)
 
 
 _ALL = np.arange(9)

@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from rockshape.ellipsoid.half_axes import Ellipsoid
 
-MOST_ROUNDS = 100
+MAX_ROUNDS = 100
 GOLDEN = (1 + 5**0.5) / 2
 
 
@@ -27,7 +27,7 @@ def nearest_on(ellipsoid: Ellipsoid, points_m: NDArray[np.float64]) -> NDArray[n
     # a point on a plane of symmetry is moved off it by a rounding error, which picks a side
     folded = np.maximum(folded, 1e-14)
     shift = folded[:, 2] - 1
-    for _ in range(MOST_ROUNDS):
+    for _ in range(MAX_ROUNDS):
         share = ratio * folded / (shift[:, None] + ratio**2)
         excess = (share**2).sum(axis=1) - 1
         slope = -2 * (share**2 / (shift[:, None] + ratio**2)).sum(axis=1)

@@ -10,7 +10,7 @@ from rockshape.ellipsoid.half_axes import Ellipsoid
 from rockshape.ellipsoid.parameters import State
 from rockshape.ellipsoid.radial_cost import Radial
 
-FEWEST_POINTS = 30  # nine unknowns and some to spare
+MIN_POINTS = 30  # nine unknowns and some to spare
 LARGEST = 3.0  # longest half-axis allowed, in sizes of the cloud: a flat face asks for infinity
 SMALLEST = 0.02
 SKETCH = 400  # points on which the starts compete, before all decide
@@ -43,7 +43,7 @@ def fit_ellipsoid(points_m: NDArray[np.float64]) -> EllipsoidFit | None:
     None for fewer than 30 points, or where they lie in one plane.
     Source: Fox et al. (2002), equations 8 and 11; the axes are sorted after the fit.
     """
-    if len(points_m) < FEWEST_POINTS:
+    if len(points_m) < MIN_POINTS:
         return None
     centroid = points_m.mean(axis=0)
     spread, directions = np.linalg.eigh(np.cov(points_m.T, bias=True))

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from rockshape.ellipsoid.distance import hausdorff_m
-from rockshape.ellipsoid.fit import FEWEST_POINTS, EllipsoidFit, starting_states
+from rockshape.ellipsoid.fit import MIN_POINTS, EllipsoidFit, starting_states
 from rockshape.ellipsoid.half_axes import Ellipsoid
 
 HAUSDORFF_SAMPLES = 512  # of the surface while searching
@@ -45,7 +45,7 @@ def fit_by_powell(
     None where `fit_ellipsoid` gives None for want of points or extent.
     Source: Fox et al. (2002), equations 8 to 11.
     """
-    if len(points_m) < FEWEST_POINTS:
+    if len(points_m) < MIN_POINTS:
         return None
     centroid = points_m.mean(axis=0)
     spread, directions = np.linalg.eigh(np.cov(points_m.T, bias=True))

@@ -13,7 +13,7 @@ from rockshape.ground.undulation import Swell, fit_swell, undulates
 SAMPLES = 65_536  # points the ground is fitted to: one for each 4 x 4 pixels of a large frame
 FINE_SAMPLES = 262_144  # and where it undulates
 EVERY = 3  # of the samples for the plane, which a few thousand determine
-FEWEST = 50
+MIN_POINTS = 50
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +43,7 @@ def fit_ground(points_m: NDArray[np.float64], *, pixel_rad: float) -> Ground | N
     of the camera or no plane is determined.
     """
     points = _sampled(points_m, SAMPLES)
-    if len(points) < FEWEST:
+    if len(points) < MIN_POINTS:
         return None
     rays = points / points[:, 2:]
     found = fit_inverse_depth(rays[::EVERY], 1 / points[::EVERY, 2])

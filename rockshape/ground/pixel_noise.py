@@ -11,8 +11,8 @@ if TYPE_CHECKING:
     from rockshape.ground import Plane  # brings scipy.optimize, a fifth of a second
 
 APART_PX = 12  # pixels this far apart share no matching window, and nearly the same ground
-MOST_WINDOW_PX = 11
-FEWEST_PAIRS = 200
+MAX_WINDOW_PX = 11
+MIN_PAIRS = 200
 GRAZING = 0.1  # rays flatter than this over their depth tell more of the plane than of the range
 SCALE = 1.4826  # standard deviation of normal values over their median absolute one
 
@@ -64,9 +64,9 @@ def estimate_range_noise(
     far = np.abs(error[:, APART_PX:] - error[:, :-APART_PX])
     near = np.abs(error[:, 1:] - error[:, :-1])
     far, near = far[np.isfinite(far)], near[np.isfinite(near)]
-    if len(far) < FEWEST_PAIRS or len(near) < FEWEST_PAIRS:
+    if len(far) < MIN_PAIRS or len(near) < MIN_PAIRS:
         return None
     apart, beside = float(np.median(far)), float(np.median(near))
     share = (apart / beside) ** 2 if beside > 0 else 1.0
-    window = int(np.clip(2 * round((share - 1) / 2) + 1, 1, MOST_WINDOW_PX))
+    window = int(np.clip(2 * round((share - 1) / 2) + 1, 1, MAX_WINDOW_PX))
     return RangeNoise(per_square_m=SCALE * apart / np.sqrt(2), window_px=window)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 REJECT_SIGMA = 3.0
-MOST_ROUNDS = 50
+MAX_ROUNDS = 50
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +45,7 @@ def fit_plane(points_m: NDArray[np.float64]) -> Plane | None:
     points -= middle[:, None]
     keep = np.ones(points.shape[1], dtype=bool)
     count, total, squares = points.shape[1], np.zeros(3), points @ points.T
-    for _ in range(MOST_ROUNDS):
+    for _ in range(MAX_ROUNDS):
         centre = total / count
         spread, axes = np.linalg.eigh(squares / count - np.outer(centre, centre))
         if spread[1] <= 1e-12 * spread[2]:

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.optimize import nnls
 
 BINS = 8
-FEWEST_IN_BIN = 30
+MIN_IN_BIN = 30
 NORMAL_MEDIAN = 0.6745  # of |x| for the standard normal distribution
 FINE_SHARE = 0.05  # of a pixel's size
 PIXEL_SHARE = 0.25  # heights below this share of a pixel's size cannot be seen
@@ -65,7 +65,7 @@ def estimate_noise(
     """
     lever = depth_m**2 * slant
     below = height_m < 0
-    if below.sum() < FEWEST_IN_BIN:
+    if below.sum() < MIN_IN_BIN:
         return Noise(0.0, 0.0, pixel_rad)
     deep, lever = -height_m[below], lever[below]
     edges = np.quantile(lever, np.linspace(0, 1, BINS + 1))
@@ -73,7 +73,7 @@ def estimate_noise(
     variances, squares = [], []
     for number in range(BINS):
         own = place == number
-        if own.sum() >= FEWEST_IN_BIN // 2:
+        if own.sum() >= MIN_IN_BIN // 2:
             variances.append((np.median(deep[own]) / NORMAL_MEDIAN) ** 2)
             squares.append(float(np.mean(lever[own] ** 2)))
     variance, square = np.array(variances), np.array(squares)

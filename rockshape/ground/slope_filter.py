@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-MOST_ROUNDS = 100  # cells across the widest rock
+MAX_ROUNDS = 100  # cells across the widest rock
 
 
 def gentle_below(height_m: Floats, rise_m: Floats) -> Floats:
@@ -18,7 +18,7 @@ def gentle_below(height_m: Floats, rise_m: Floats) -> Floats:
     above it.
     """
     below = height_m
-    for _ in range(MOST_ROUNDS):
+    for _ in range(MAX_ROUNDS):
         padded = np.pad(below, 1, constant_values=np.inf)
         up, middle, down = padded[:-2], padded[1:-1], padded[2:]
         beside = np.minimum(

@@ -9,7 +9,7 @@ Singles = NDArray[np.float32]
 SECOND = (1.0, -2.0, 1.0)
 FIRST = (-1.0, 1.0)
 TWIST = ((1.0, -1.0), (-1.0, 1.0))
-LEAST_WEIGHT = 1e-5  # of a missing value, at height 0: single precision must tell it from nothing
+MIN_WEIGHT = 1e-5  # of a missing value, at height 0: single precision must tell it from nothing
 
 
 def bend(value: Singles, weight: Singles, *, stiff: float, taut: float) -> Singles:
@@ -24,7 +24,7 @@ def bend(value: Singles, weight: Singles, *, stiff: float, taut: float) -> Singl
     if turned:
         value, weight = value.T, weight.T
     bands = _bands(value.shape, stiff=stiff, taut=taut)
-    bands[0] += weight + np.float32(LEAST_WEIGHT)
+    bands[0] += weight + np.float32(MIN_WEIGHT)
     surface = solveh_banded(
         bands.reshape(len(bands), -1), (weight * value).ravel(), lower=True, check_finite=False
     ).reshape(value.shape)

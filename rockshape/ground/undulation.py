@@ -21,16 +21,16 @@ Mask = NDArray[np.bool_]
 
 COARSE_CELL = 0.02  # side of a cell over its distance from the camera's foot: to tell undulation
 FINE_CELL = 0.01  # and to follow it
-MOST_CELLS = 20_000
+MAX_CELLS = 20_000
 UNEVEN = 1.0  # scatters of a cell's points that cells may differ by on a plane
 STEEPEST = 0.5  # slope of ground, 27 degrees; dry sand lies at up to 32
-MOST_SCATTER = 2.0  # of a cell's points over that usual at its distance: on rocks they scatter more
+MAX_SCATTER = 2.0  # of a cell's points over that usual at its distance: on rocks they scatter more
 NEAR_CELLS = 1.0  # standard deviation of the average that a cell beside a rock is held to,
 NEAR_RISE = 0.5  # and the share of the steepest rise that it may stand above it
 STIFF = 0.2  # weight of the surface's bending against a cell's misfit
 TAUT = 0.002  # and of its rise
-FEWEST_IN_CELL = 3
-FEWEST_CELLS = 40
+MIN_IN_CELL = 3
+MIN_CELLS = 40
 TAIL, NORMAL_TAIL = 0.03, 1.881  # a low quantile, and where a normal distribution has it
 NORMAL_BELOW = 0.1587  # share of a normal distribution more than its deviation below its middle
 STRIP = 1024  # points in a row for OpenCV, which takes up to 32,767 rows
@@ -133,21 +133,21 @@ def _gather(
     axes = np.stack([np.cross(normal, ahead / length), ahead / length])
     polar = _polar(points_m, axes)
     low, high = np.quantile(polar, (0.002, 0.99), axis=0).astype(np.float64)
-    side = max(cell, float(np.sqrt(np.prod(high - low) / MOST_CELLS)))
+    side = max(cell, float(np.sqrt(np.prod(high - low) / MAX_CELLS)))
     shape = tuple(int(count) for count in np.ceil((high - low) / side) + 1)
     place = np.rint((polar - low) / side).astype(np.intp)
     inside = ((place >= 0) & (place < shape)).all(axis=1)
     number = place[inside, 0] * shape[1] + place[inside, 1]
     height = height_m[inside]
-    if len(height) < FEWEST_CELLS * FEWEST_IN_CELL:
+    if len(height) < MIN_CELLS * MIN_IN_CELL:
         return None
     # one sort orders cells and, within each, heights: a cell's number and its heights' share of 1
     lowest, span = height.min(), max(1.001 * float(np.ptp(height)), 1e-9)
     ordered = np.sort(number + (height - lowest) / span)
     count = np.bincount(number, minlength=shape[0] * shape[1])
     first = np.cumsum(count) - count
-    own = np.flatnonzero(count >= FEWEST_IN_CELL)
-    if len(own) < FEWEST_CELLS:
+    own = np.flatnonzero(count >= MIN_IN_CELL)
+    if len(own) < MIN_CELLS:
         return None
     middle, lower = (
         (ordered[first[own] + np.floor(share * count[own]).astype(np.intp)] - own) * span + lowest
@@ -170,7 +170,7 @@ def _ground_cells(cells: _Cells) -> Mask:
     gentle_m = gentle_below(np.where(cells.seen, cells.middle_m, np.inf), rise_m)
     own_m = np.ma.masked_array(cells.scatter_m, ~cells.seen)
     usual_m = np.ma.median(own_m, axis=0).filled(0)  # type: ignore[no-untyped-call]
-    slack_m = np.minimum(cells.scatter_m, MOST_SCATTER * usual_m)
+    slack_m = np.minimum(cells.scatter_m, MAX_SCATTER * usual_m)
     steep = cells.seen & (cells.middle_m - gentle_m > slack_m)
     beside = cv2.dilate(steep.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
     sure = (cells.seen & ~beside).astype(np.float32)

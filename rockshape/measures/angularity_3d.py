@@ -32,10 +32,10 @@ from numpy.typing import NDArray
 
 from rockshape.measures.measure import Measure, Reason
 from rockshape.rock.view import RockView
-from rockshape.surface import FEWEST_POINTS, Relief, Surface
+from rockshape.surface import MIN_POINTS, ResidualCurvature, Surface
 
-FEWEST_FACING = 200  # below this the value moves by more than 2 % with the grid
-MOST_NOISE = 1.0  # bend by noise alone: the range from worn to sharp
+MIN_FACING = 200  # below this the value moves by more than 2 % with the grid
+MAX_NOISE = 1.0  # bend by noise alone: the range from worn to sharp
 
 
 def angularity_3d_per_m(
@@ -64,12 +64,12 @@ def angularity_3d_per_m(
     return float(np.mean(mean if signed else np.abs(mean)))
 
 
-def angularity_3d(relief: Relief) -> float:
+def angularity_3d(relief: ResidualCurvature) -> float:
     """RMS bend of the relief over the ellipsoid without the noise's share; no unit.
 
     NaN below 200 facing points, and where the noise alone would bend the surface by more than 1.
     """
-    if relief.facing < FEWEST_FACING or relief.noise_bend > MOST_NOISE:
+    if relief.facing < MIN_FACING or relief.noise_bend > MAX_NOISE:
         return float("nan")
     return float(np.sqrt(max(relief.bend**2 - relief.noise_bend**2, 0.0)))
 
@@ -82,9 +82,9 @@ def _evaluate_relief(rock: RockView) -> float | Reason:
     relief = rock.relief
     if relief is None:
         return float("nan")
-    if relief.facing < FEWEST_FACING:
+    if relief.facing < MIN_FACING:
         return Reason.TOO_SMALL
-    if relief.noise_bend > min(MOST_NOISE, relief.bend):
+    if relief.noise_bend > min(MAX_NOISE, relief.bend):
         return Reason.NOT_RESOLVABLE
     return angularity_3d(relief)
 
@@ -95,7 +95,7 @@ PAPER = Measure(
     paper_name="3-D angularity",
     unit="1/m",
     needs_range=True,
-    fewest=FEWEST_POINTS,
+    fewest=MIN_POINTS,
     evaluate=_evaluate,
 )
 ROBUST = Measure(
@@ -104,6 +104,6 @@ ROBUST = Measure(
     paper_name="3-D angularity",
     unit="",
     needs_range=True,
-    fewest=FEWEST_FACING,
+    fewest=MIN_FACING,
     evaluate=_evaluate_relief,
 )

@@ -25,7 +25,7 @@ Source: Fox et al. (2002), section 2, Ellipse Fitting; Halíř and Flusser (1998
 and Kanazawa (2016).
 """
 
-from rockshape.ellipse.direct import FEWEST_POINTS, Ellipse
+from rockshape.ellipse.direct import MIN_POINTS, Ellipse
 from rockshape.measures.measure import Measure, Reason
 from rockshape.rock.view import RockView
 
@@ -57,7 +57,7 @@ PAPER = Measure(
     paper_name="eccentricity",
     unit="",
     needs_range=False,
-    fewest=FEWEST_POINTS,
+    fewest=MIN_POINTS,
     evaluate=_evaluate,
 )
 
@@ -67,6 +67,6 @@ ROBUST = Measure(
     paper_name="eccentricity",
     unit="",
     needs_range=False,
-    fewest=FEWEST_POINTS,
+    fewest=MIN_POINTS,
     evaluate=_read_robust,
 )

@@ -30,7 +30,7 @@ Source: Fox et al. (2002), section 2, Ellipse Fitting, and figure 2.
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.ellipse.direct import FEWEST_POINTS, Ellipse, fit_ellipse
+from rockshape.ellipse.direct import MIN_POINTS, Ellipse, fit_ellipse
 from rockshape.measures.measure import Measure, Reason
 from rockshape.rock.view import RockView
 
@@ -81,7 +81,7 @@ PAPER = Measure(
     paper_name="ellipse fitting error",
     unit="px²",
     needs_range=False,
-    fewest=FEWEST_POINTS,
+    fewest=MIN_POINTS,
     evaluate=_evaluate,
 )
 
@@ -91,7 +91,7 @@ ROBUST = Measure(
     paper_name="ellipse fitting error",
     unit="",
     needs_range=False,
-    fewest=FEWEST_POINTS,
+    fewest=MIN_POINTS,
     evaluate=_read_robust,
     whole=True,
 )

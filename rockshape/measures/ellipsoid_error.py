@@ -25,11 +25,11 @@ Source: Fox et al. (2002), section 2, Ellipsoid Fitting, after equation 11.
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.ellipsoid import FEWEST_POINTS, Ellipsoid, EllipsoidFit
+from rockshape.ellipsoid import MIN_POINTS, Ellipsoid, EllipsoidFit
 from rockshape.measures.measure import Measure, Reason
 from rockshape.rock.view import RockView
 
-MOST_NOISE = 0.06  # of the mean half-axis, which is the whole range of the measure
+MAX_NOISE = 0.06  # of the mean half-axis, which is the whole range of the measure
 
 
 def ellipsoid_error_m2(fit: EllipsoidFit) -> float:
@@ -72,7 +72,7 @@ def _evaluate_held(rock: RockView) -> float | Reason:
         return float("nan")
     noise_m = _noise_m(rock, body)
     error = ellipsoid_error(body, rock.points_m, noise_m=noise_m)
-    hidden = noise_m > MOST_NOISE * float(np.cbrt(body.half_axes_m.prod())) or error == 0 < noise_m
+    hidden = noise_m > MAX_NOISE * float(np.cbrt(body.half_axes_m.prod())) or error == 0 < noise_m
     return Reason.NOT_RESOLVABLE if hidden else error
 
 
@@ -86,7 +86,7 @@ PAPER = Measure(
     paper_name="ellipsoid fitting error",
     unit="m²",
     needs_range=True,
-    fewest=FEWEST_POINTS,
+    fewest=MIN_POINTS,
     evaluate=_evaluate,
 )
 ROBUST = Measure(
@@ -95,6 +95,6 @@ ROBUST = Measure(
     paper_name="ellipsoid fitting error",
     unit="",
     needs_range=True,
-    fewest=FEWEST_POINTS,
+    fewest=MIN_POINTS,
     evaluate=_evaluate_held,
 )

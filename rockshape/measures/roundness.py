@@ -29,7 +29,7 @@ Source: Wadell (1932), Volume, shape, and roundness of rock particles.
 """
 
 from rockshape.measures.measure import Measure, Reason
-from rockshape.outline.roundness import FEWEST_POINTS, wadell_roundness
+from rockshape.outline.roundness import MIN_POINTS, wadell_roundness
 from rockshape.rock.view import RockView
 
 
@@ -43,7 +43,7 @@ ROBUST = Measure(
     paper_name="",
     unit="",
     needs_range=False,
-    fewest=FEWEST_POINTS,
+    fewest=MIN_POINTS,
     evaluate=_read_robust,
     whole=True,
 )

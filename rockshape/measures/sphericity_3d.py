@@ -25,7 +25,7 @@ Source: Sneed and Folk (1958); Fox et al. (2002), equation 2, which names it bes
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.ellipsoid import FEWEST_POINTS
+from rockshape.ellipsoid import MIN_POINTS
 from rockshape.measures.measure import Measure
 from rockshape.rock.view import RockView
 
@@ -57,7 +57,7 @@ PAPER = Measure(
     paper_name="3-D sphericity",
     unit="",
     needs_range=True,
-    fewest=FEWEST_POINTS,
+    fewest=MIN_POINTS,
     evaluate=_evaluate,
 )
 ROBUST = Measure(
@@ -66,6 +66,6 @@ ROBUST = Measure(
     paper_name="3-D sphericity",
     unit="",
     needs_range=True,
-    fewest=FEWEST_POINTS,
+    fewest=MIN_POINTS,
     evaluate=_evaluate_held,
 )

@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 from rockshape.outline.resample import canonical, even_outline, outline_length
 from rockshape.outline.trace import signed_area
 
-FEWEST_POINTS = 40  # evenly spaced points, about a pixel apart
+MIN_POINTS = 40  # evenly spaced points, about a pixel apart
 # The noise that pixels make in curvature falls with sigma^2.5 while curvature falls with the
 # radius R: sigma grows more slowly than R. Tuned on rounded polygons of 30 to 500 px.
 _SIGMA = 0.68
 _SIGMA_POWER = 0.6
 _PROMINENCE = 0.2  # of 1/R: less than that above its surroundings is no corner of its own
-_LEAST_TURN_RAD = 0.2  # a corner that turns less is a ripple
+_MIN_TURN_RAD = 0.2  # a corner that turns less is a ripple
 _FULL_CONTRAST = 0.8  # from here on a corner counts as an arc between straight sides
 _CONTACTS = 256  # points that can touch it: between them a circle passes by 1e-4 of its radius
 _UNIT = 4096  # the triangulation tells points apart by a fixed distance, 1e-7
@@ -48,7 +48,7 @@ def wadell_roundness(outline_px: NDArray[np.float64]) -> float:
     circle.
     Source: Wadell (1932), Volume, shape, and roundness of rock particles.
     """
-    if len(outline_px) < FEWEST_POINTS:
+    if len(outline_px) < MIN_POINTS:
         return float("nan")
     ring = canonical(outline_px)
     radius = inscribed_radius(ring)
@@ -65,7 +65,7 @@ def wadell_roundness(outline_px: NDArray[np.float64]) -> float:
         floor = float(between[0] + between[-1]) / 2
         theta = step * (float(between.sum()) - floor)
         height = float(curvature[peak])
-        if height > 1 / radius and theta > _LEAST_TURN_RAD:
+        if height > 1 / radius and theta > _MIN_TURN_RAD:
             radii.append(min(radius, _corner_radius(height, floor, theta, sigma)))
     return float(np.mean(radii) / radius) if radii else 1.0
 

@@ -19,12 +19,12 @@ from rockshape.outline.extent import feret_diameters
 from rockshape.outline.resample import form_outline, pixel_smooth
 from rockshape.outline.trace import trace_outline
 from rockshape.rock.visibility import touches_border
-from rockshape.surface import Relief, Surface, fit_surface, measure_relief, view_patch
+from rockshape.surface import ResidualCurvature, Surface, fit_surface, measure_relief, view_patch
 
 if TYPE_CHECKING:
     from rockshape.ground import Plane  # brings scipy.optimize, a fifth of a second
 
-LEAST_WIDTH_PX = 4.0
+MIN_WIDTH_PX = 4.0
 NOISE_DRAWS = 4  # of errors like the range's, to tell what they alone would make of a surface
 
 
@@ -77,7 +77,7 @@ class RockView:
     @cached_property
     def resolved(self) -> bool:
         """Whether the outline is at least 4 px wide, below which pixels are its shape."""
-        return self.feret_px[0] >= LEAST_WIDTH_PX
+        return self.feret_px[0] >= MIN_WIDTH_PX
 
     @cached_property
     def feret_px(self) -> tuple[float, float]:
@@ -144,7 +144,7 @@ class RockView:
         return None if fit is None or fit.bounded or not fit.converged else fit.ellipsoid
 
     @cached_property
-    def relief(self) -> Relief | None:
+    def relief(self) -> ResidualCurvature | None:
         """What stands out of the held ellipsoid."""
         if self.held_ellipsoid is None:
             return None

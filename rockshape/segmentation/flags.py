@@ -5,7 +5,7 @@ import scipy.ndimage as ndi
 from numpy.typing import NDArray
 
 from rockshape.rock.visibility import touches_border
-from rockshape.segmentation.by_range.height_signal import Relief
+from rockshape.segmentation.by_range.height_signal import HeightSignal
 
 SMALL_PX = 12  # a rock narrower than this has no outline worth measuring
 HIDDEN_SHARE = 0.1  # of a rock's border along which a nearer rock stands
@@ -20,7 +20,7 @@ STEPS = ((0, 1), (1, 0))
 def flag(
     image: NDArray[np.float32],
     labels: NDArray[np.int32],
-    relief: Relief | None,
+    relief: HeightSignal | None,
     *,
     frame: tuple[slice, slice],
 ) -> dict[int, tuple[str, ...]]:
@@ -60,7 +60,7 @@ def _whole(labels: NDArray[np.int32]) -> tuple[slice, slice]:
     return slice(0, labels.shape[0]), slice(0, labels.shape[1])
 
 
-def _hidden_share(labels: NDArray[np.int32], relief: Relief | None) -> NDArray[np.float64]:
+def _hidden_share(labels: NDArray[np.int32], relief: HeightSignal | None) -> NDArray[np.float64]:
     """Share of each label's border along which a nearer one lies; 0 without range."""
     count = int(labels.max(initial=0)) + 1
     border = np.zeros(count)
@@ -83,7 +83,7 @@ def _hidden_share(labels: NDArray[np.int32], relief: Relief | None) -> NDArray[n
     return np.asarray(hidden / np.maximum(border, 1))
 
 
-def _is_buried(relief: Relief, window: tuple[slice, slice], mask: NDArray[np.bool_]) -> bool:
+def _is_buried(relief: HeightSignal, window: tuple[slice, slice], mask: NDArray[np.bool_]) -> bool:
     height = np.where(mask & relief.known[window], relief.height_m[window], 0)
     top = float(height.max())
     if top < CLEAR_SIGMA * float(np.median(relief.sigma_m[window][mask])):

@@ -24,7 +24,7 @@ FINEST_LEVEL_M = 0.0025
 GROUND_LEVELS = 2  # a rock begins this many levels above the plane
 TOP_LEVELS = 2  # a top stands this many levels above the saddle to a higher one,
 TOP_SHARE = 0.25  # and this share of its own height above the ground
-FEWEST_PIXELS = 40  # a rock of seven pixels across
+MIN_PIXELS = 40  # a rock of seven pixels across
 
 
 class Kind(IntEnum):
@@ -96,7 +96,7 @@ def segment_heights(height_m: NDArray[np.float64], *, sigma_m: float) -> NDArray
     tops = _find_tops(levels, known)
     rocks = watershed(-levels, markers=tops, mask=slopes | (tops > 0), connectivity=2)
     rocks = _fill_dents(np.asarray(rocks, dtype=np.int32))
-    small = np.flatnonzero(np.bincount(rocks.ravel()) < FEWEST_PIXELS)
+    small = np.flatnonzero(np.bincount(rocks.ravel()) < MIN_PIXELS)
     return renumber(rocks, dropped=np.union1d(small, _on_border(tops, known)))
 
 

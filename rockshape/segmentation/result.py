@@ -7,20 +7,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.ground import Plane
-from rockshape.segmentation.edges.edge_snapping import Outline
+from rockshape.segmentation.edges.edge_snapping import SnappedOutline
 
 Branch = Literal["range", "image", "labels"]
 Variant = Literal["paper", "robust"]
 
 
 @dataclass(frozen=True, eq=False)
-class Found:
+class FoundRock:
     """A rock: what found it, and what its view lacks."""
 
     number: int  # the value of its pixels in the label image
     branch: Branch
     flags: tuple[str, ...] = ()  # of truncated, occluded, buried, small, shadowed
-    outline: Outline | None = None  # at the image's edge; None: the border of its pixels
+    outline: SnappedOutline | None = None  # at the image's edge; None: the border of its pixels
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,4 +30,4 @@ class Segmentation:
     labels: NDArray[np.int32]  # (rows, cols), 0 the ground
     ground: Plane | None
     frame: tuple[slice, slice]  # rows and columns in which rocks could be found
-    found: tuple[Found, ...]  # in the order of their numbers
+    found: tuple[FoundRock, ...]  # in the order of their numbers

@@ -7,14 +7,14 @@ from rockshape.ground import Ground, Plane, fit_ground, fit_plane
 from rockshape.observation import Observation
 from rockshape.rock.visibility import measured_frame
 from rockshape.segmentation.by_image.image_branch import find_by_image
-from rockshape.segmentation.by_range.height_signal import Relief, relief_of, standing
+from rockshape.segmentation.by_range.height_signal import HeightSignal, relief_of, standing
 from rockshape.segmentation.by_range.split import FLATTEST, FLATTEST_ON_WAVES, split
-from rockshape.segmentation.edges.edge_snapping import Outline
+from rockshape.segmentation.edges.edge_snapping import SnappedOutline
 from rockshape.segmentation.edges.image_edges import snapped, texture_of
 from rockshape.segmentation.flags import flag
 from rockshape.segmentation.published import segment_heights
 from rockshape.segmentation.relabel import in_reading_order, renumber
-from rockshape.segmentation.result import Branch, Found, Segmentation, Variant
+from rockshape.segmentation.result import Branch, FoundRock, Segmentation, Variant
 
 Labels = NDArray[np.int32]
 
@@ -47,7 +47,7 @@ def _by_paper(observation: Observation) -> Segmentation:
         return _nothing(observation)
     height_m = ground.height_m(points_m)
     labels = segment_heights(height_m, sigma_m=ground.sigma_m)
-    found = tuple(Found(number, "range") for number in range(1, int(labels.max()) + 1))
+    found = tuple(FoundRock(number, "range") for number in range(1, int(labels.max()) + 1))
     return Segmentation(labels, ground, measured_frame(np.isfinite(height_m)), found)
 
 
@@ -77,15 +77,15 @@ def _by_range_and_image(observation: Observation) -> Segmentation:
     found = []
     for number, before in enumerate(in_reading_order(moved).tolist(), start=1):
         branch: Branch = "range" if before <= from_range else "image"
-        found.append(Found(number, branch, (), outlines.get(before)))
+        found.append(FoundRock(number, branch, (), outlines.get(before)))
     flags = flag(observation.image, numbered, relief, frame=frame)
-    told = tuple(Found(one.number, one.branch, flags[one.number], one.outline) for one in found)
+    told = tuple(FoundRock(one.number, one.branch, flags[one.number], one.outline) for one in found)
     return Segmentation(numbered, None if ground is None else ground.plane, frame, told)
 
 
 def _at_edges(
-    observation: Observation, labels: Labels, relief: Relief | None
-) -> tuple[dict[int, Outline], Labels]:
+    observation: Observation, labels: Labels, relief: HeightSignal | None
+) -> tuple[dict[int, SnappedOutline], Labels]:
     """Outlines moved to the image's edges, unless range is finer than any matcher's."""
     if relief is not None and relief.fine:
         return {}, labels
@@ -93,14 +93,14 @@ def _at_edges(
     return snapped(observation.image, labels, relief, texture=texture)
 
 
-def _stand(observation: Observation) -> tuple[Ground | None, Relief | None]:
+def _stand(observation: Observation) -> tuple[Ground | None, HeightSignal | None]:
     if observation.points_m is None:
         return None, None
     ground = fit_ground(observation.points_m, pixel_rad=pixel_rad(observation))
     return ground, None if ground is None else relief_of(observation.points_m, ground)
 
 
-def find_by_range(relief: Relief, ground: Ground) -> Labels:
+def find_by_range(relief: HeightSignal, ground: Ground) -> Labels:
     """Labels (rows, cols) from 1 of the rocks that stand on the ground."""
     labels = split(
         relief,

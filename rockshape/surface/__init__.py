@@ -2,19 +2,19 @@
 
 from rockshape.surface.basis import Knots
 from rockshape.surface.ellipsoid_curvature import body_bends_per_m
-from rockshape.surface.fit import FEWEST_POINTS, NET, Surface, fit_surface
+from rockshape.surface.fit import MIN_POINTS, NET, Surface, fit_surface
 from rockshape.surface.normal_equations import Net
-from rockshape.surface.patch import Patch, view_patch
-from rockshape.surface.residual_curvature import Relief, measure_relief
+from rockshape.surface.patch import SurfacePatch, view_patch
+from rockshape.surface.residual_curvature import ResidualCurvature, measure_relief
 
 __all__ = [
-    "FEWEST_POINTS",
+    "MIN_POINTS",
     "NET",
     "Knots",
     "Net",
-    "Patch",
-    "Relief",
+    "ResidualCurvature",
     "Surface",
+    "SurfacePatch",
     "body_bends_per_m",
     "fit_surface",
     "measure_relief",

@@ -16,10 +16,10 @@ from rockshape.surface.normal_equations import (
     rows,
     vertex_bending,
 )
-from rockshape.surface.patch import Patch
+from rockshape.surface.patch import SurfacePatch
 
 NET = Net(u=Knots(10), w=Knots(10))
-FEWEST_POINTS = NET.size
+MIN_POINTS = NET.size
 STIFFNESS = 1e-6  # trace of the roughness penalty against that of the data's normal matrix
 
 Smoothing = float | Literal["slight", "gcv"]
@@ -66,7 +66,7 @@ class Surface:
 
 
 def fit_surface(
-    patch: Patch,
+    patch: SurfacePatch,
     *,
     net: Net = NET,
     smoothing: Smoothing = "slight",

@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from rockshape.surface.normal_equations import factorise
 
-LEAST, MOST = 1e-3, 1.0  # of the length at which penalty and data weigh alike
+MIN_LENGTH, MAX_LENGTH = 1e-3, 1.0  # of the length at which penalty and data weigh alike
 STEPS = 13  # of the first search, evenly in the logarithm
 ROUNDS = 12  # of the golden section that follows
 GOLDEN = (5**0.5 - 1) / 2
@@ -41,7 +41,7 @@ def best_smoothing(
         freedom = len(side) - weight * float(np.trace(factor.solve(dense)))
         return float(count * square / max(count - freedom, 1e-9 * count) ** 2)
 
-    places = np.geomspace(LEAST, MOST, STEPS)
+    places = np.geomspace(MIN_LENGTH, MAX_LENGTH, STEPS)
     scores = [score(place) for place in places]
     best = int(np.argmin(scores))
     low, high = np.log(places[max(best - 1, 0)]), np.log(places[min(best + 1, STEPS - 1)])

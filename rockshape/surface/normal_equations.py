@@ -10,7 +10,7 @@ from rockshape.surface.basis import Basis, Knots, derivative_net, overlaps
 
 BUNCH = 16  # data of one cell that are multiplied at a time
 CHUNK = 4096  # data whose products stay in the cache
-LEAST_PIVOT = 1e-13  # of the largest: below it rounding decides what the data do not
+MIN_PIVOT = 1e-13  # of the largest: below it rounding decides what the data do not
 
 
 @dataclass(frozen=True)
@@ -187,4 +187,4 @@ def factorise(bands: NDArray[np.float64]) -> Factor | None:
     except np.linalg.LinAlgError:
         return None
     pivots = lower[0] ** 2
-    return Factor(lower) if pivots.min() > LEAST_PIVOT * bands[0].max() else None
+    return Factor(lower) if pivots.min() > MIN_PIVOT * bands[0].max() else None

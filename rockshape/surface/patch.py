@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 
 @dataclass(frozen=True, eq=False)
-class Patch:
+class SurfacePatch:
     """Points of a rock as a graph over the image: metres across and metres towards the camera."""
 
     u_m: NDArray[np.float64]  # (n,), along the image's columns
@@ -33,7 +33,7 @@ def view_axes(points_m: NDArray[np.float64]) -> NDArray[np.float64] | None:
     return np.stack([across, np.cross(away, across), -away])
 
 
-def view_patch(points_m: NDArray[np.float64]) -> Patch | None:
+def view_patch(points_m: NDArray[np.float64]) -> SurfacePatch | None:
     """Lay the points, (n, 3) in the camera frame, over the plane that faces the camera.
 
     The height is measured along the ray to the points' centroid, so that the visible surface is a
@@ -43,4 +43,4 @@ def view_patch(points_m: NDArray[np.float64]) -> Patch | None:
     if axes is None:
         return None
     u, w, height = ((points_m - points_m.mean(axis=0)) @ axes.T).T
-    return Patch(u_m=u, w_m=w, height_m=height)
+    return SurfacePatch(u_m=u, w_m=w, height_m=height)

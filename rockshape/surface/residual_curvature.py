@@ -11,16 +11,16 @@ from rockshape.surface.normal_equations import Net, bending, factorise, normal_e
 
 NET = Net(u=Knots(24), w=Knots(24))
 SMOOTHING = 0.08  # radii: waves shorter than half a radius are flattened
-FEWEST_POINTS = 144  # a quarter of the net's vertices
+MIN_POINTS = 144  # a quarter of the net's vertices
 EDGE = 0.1  # cosine from the view beyond which points are left out
 FACING = 0.35  # cosine within which the relief is judged: nearer the limb range is thin
 OUTLIER = 6.0  # robust standard deviations from the first surface
-MOST_POINTS = 4000  # in a fixed shuffle: the smoothing needs no more
-LEAST_OUTLIER = 0.05  # radii: an edge stands less than this from the smoothed surface
+MAX_POINTS = 4000  # in a fixed shuffle: the smoothing needs no more
+MIN_OUTLIER = 0.05  # radii: an edge stands less than this from the smoothed surface
 
 
 @dataclass(frozen=True)
-class Relief:
+class ResidualCurvature:
     """Second derivatives of the height over the ellipsoid, free of scale and unit."""
 
     bend: float  # RMS over the facing points of (r_xx + r_yy)/2
@@ -33,7 +33,7 @@ def measure_relief(
     points_m: NDArray[np.float64],
     *,
     draws_m: NDArray[np.float64] | None = None,
-) -> Relief | None:
+) -> ResidualCurvature | None:
     """Relief of points (n, 3) in the camera frame, the camera at the origin, over an ellipsoid.
 
     The map that takes the ellipsoid to the unit sphere takes the body's form and size out: each
@@ -54,10 +54,10 @@ def measure_relief(
     view /= np.sqrt(view @ view)
     cosine = sphere @ view / np.maximum(radius, 1e-12)
     keep = np.flatnonzero(cosine > EDGE)
-    if len(keep) < FEWEST_POINTS:
+    if len(keep) < MIN_POINTS:
         return None
-    if len(keep) > MOST_POINTS:
-        keep = keep[np.random.default_rng(0).permutation(len(keep))[:MOST_POINTS]]
+    if len(keep) > MAX_POINTS:
+        keep = keep[np.random.default_rng(0).permutation(len(keep))[:MAX_POINTS]]
     # displaced along the ray by dz: y moves by S A p/z dz, and r by its part along y
     ray = points_m[keep] / points_m[keep][:, 2:] @ ellipsoid.axes.T / ellipsoid.half_axes_m
     slope = (sphere[keep] * ray).sum(axis=1) / radius[keep]
@@ -68,14 +68,14 @@ def measure_relief(
     if fit is None:
         return None
     misfit = np.abs(fit[1])
-    sound = misfit <= max(OUTLIER * 1.4826 * float(np.median(misfit)), LEAST_OUTLIER)
+    sound = misfit <= max(OUTLIER * 1.4826 * float(np.median(misfit)), MIN_OUTLIER)
     if not sound.all():
         fit = _bends(x[sound], y[sound], heights[sound])
     facing = cosine[keep][sound] > FACING
     if fit is None or not facing.any():
         return None
     square = (fit[0][facing] ** 2).mean(axis=0)
-    return Relief(
+    return ResidualCurvature(
         bend=float(np.sqrt(square[0])),
         noise_bend=float(np.sqrt(square[1:].mean())) if len(square) > 1 else 0.0,
         facing=int(facing.sum()),

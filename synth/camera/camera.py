@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.errors import InputError
+from synth.errors import SpecError
 
 Floats = NDArray[np.float64]
 Reals = NDArray[np.floating[Any]]
@@ -17,7 +17,7 @@ _FOUND = 1e-9  # of x/z: a ray that the lens puts farther off than this is none
 
 
 @dataclass(frozen=True)
-class Camera:
+class RenderCamera:
     """A pinhole camera; integer pixels are pixel centres, (0, 0) the upper-left one's."""
 
     fx: float  # pixels
@@ -32,9 +32,9 @@ class Camera:
         """Return K, (3, 3): pixels from camera coordinates over depth."""
         return np.array([[self.fx, 0.0, self.cx], [0.0, self.fy, self.cy], [0.0, 0.0, 1.0]])
 
-    def refined(self, factor: int) -> "Camera":
+    def refined(self, factor: int) -> "RenderCamera":
         """Return the camera with each pixel split into factor × factor, over the same field."""
-        return Camera(
+        return RenderCamera(
             fx=self.fx * factor,
             fy=self.fy * factor,
             cx=(self.cx + 0.5) * factor - 0.5,
@@ -49,7 +49,7 @@ class Camera:
 class Preset:
     """A flown camera, its stereo baseline and the distance at which default rocks suit it."""
 
-    camera: Camera
+    camera: RenderCamera
     distance_m: float
     baseline_m: float | None = None  # from the left eye to the right one; None: one eye alone
 
@@ -59,7 +59,7 @@ def _preset(
 ) -> Preset:
     """Return a preset with square pixels and the principal point in the frame's middle."""
     focal_px = 1000.0 / pixel_mrad
-    camera = Camera(
+    camera = RenderCamera(
         fx=focal_px,
         fy=focal_px,
         cx=(width_px - 1) / 2.0,
@@ -78,7 +78,7 @@ PRESETS = {
     "imp": _preset(256, 256, pixel_mrad=0.98, baseline_m=0.150, distance_m=11.0),
     "sojourner": replace(
         _preset(768, 484, pixel_mrad=2.9, baseline_m=0.126, distance_m=2.5),
-        camera=Camera(1000.0 / 2.9, 1000.0 / 3.4, 383.5, 241.5, 768, 484),
+        camera=RenderCamera(1000.0 / 2.9, 1000.0 / 3.4, 383.5, 241.5, 768, 484),
     ),
     "mer-navcam": _preset(1024, 1024, pixel_mrad=0.82, baseline_m=0.20, distance_m=4.5),
     "mer-hazcam": _preset(1024, 1024, pixel_mrad=2.1, baseline_m=0.10, distance_m=2.5),
@@ -129,7 +129,7 @@ def look_at(position_m: Floats, target_m: Floats, *, roll_rad: float = 0.0) -> P
     return Pose(world_to_camera=world_to_camera, translation_m=-world_to_camera @ position_m)
 
 
-def project(camera: Camera, points_m: Floats) -> Floats:
+def project(camera: RenderCamera, points_m: Floats) -> Floats:
     """Return pixels (column, row), (..., 2), of camera-frame points (..., 3) in front of it."""
     across = points_m[..., 0] / points_m[..., 2]
     down = points_m[..., 1] / points_m[..., 2]
@@ -137,7 +137,7 @@ def project(camera: Camera, points_m: Floats) -> Floats:
     return np.stack([camera.fx * x + camera.cx, camera.fy * y + camera.cy], axis=-1)
 
 
-def distorted(camera: Camera, across: Reals, down: Reals) -> tuple[Reals, Reals]:
+def distorted(camera: RenderCamera, across: Reals, down: Reals) -> tuple[Reals, Reals]:
     """Return where the lens puts rays (x/z, y/z), by Brown and Conrady's model as OpenCV has it."""
     if camera.distortion is None:
         return across, down
@@ -150,7 +150,7 @@ def distorted(camera: Camera, across: Reals, down: Reals) -> tuple[Reals, Reals]
     )
 
 
-def undistorted(camera: Camera, across: Reals, down: Reals) -> tuple[Reals, Reals]:
+def undistorted(camera: RenderCamera, across: Reals, down: Reals) -> tuple[Reals, Reals]:
     """Return the rays (x/z, y/z) that the lens puts there: the inverse of `distorted`.
 
     Newton's method from the place itself. Where the lens folds the image, some places have no
@@ -187,7 +187,7 @@ def _newton_step(
     return (yy * off_x - xy * off_y) / size, (xx * off_y - xy * off_x) / size
 
 
-def pixel_rays(camera: Camera) -> tuple[Floats, Floats]:
+def pixel_rays(camera: RenderCamera) -> tuple[Floats, Floats]:
     """Return where the pixels' centres lie over the focal length, (1, cols) and (rows, 1)."""
     columns, rows = np.arange(camera.width)[None, :], np.arange(camera.height)[:, None]
     return (
@@ -196,7 +196,7 @@ def pixel_rays(camera: Camera) -> tuple[Floats, Floats]:
     )
 
 
-def border_rays(camera: Camera) -> tuple[Floats, Floats, Floats, Floats]:
+def border_rays(camera: RenderCamera) -> tuple[Floats, Floats, Floats, Floats]:
     """Return the rays (x/z, y/z), (n, 2), along the frame's left, top, right and bottom side."""
     columns = np.arange(camera.width + 1) - 0.5
     rows = np.arange(camera.height + 1) - 0.5
@@ -212,7 +212,7 @@ def border_rays(camera: Camera) -> tuple[Floats, Floats, Floats, Floats]:
     return one, two, three, four
 
 
-def check_lens(camera: Camera) -> None:
+def check_lens(camera: RenderCamera) -> None:
     """Make sure that each place of the frame has a ray of its own.
 
     Raises:
@@ -229,7 +229,7 @@ def check_lens(camera: Camera) -> None:
             again = np.column_stack(distorted(camera, *rays))
             outward = np.diff(np.hypot(*rays)) > 0.0
             if not (np.abs(again - places).max() < _FOUND and outward.all()):
-                raise InputError(
+                raise SpecError(
                     "camera.distortion: expected a lens that shows each point of the frame once, "
                     f"found {list(camera.distortion)}, which folds the image"
                 )

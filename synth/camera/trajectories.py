@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from synth.camera.camera import PRESETS, Camera, Floats, Pose, check_lens, look_at
+from synth.camera.camera import PRESETS, Floats, Pose, RenderCamera, check_lens, look_at
 from synth.spec.view import CameraSpec, ViewsSpec
 
 
-def camera_of(spec: CameraSpec) -> Camera:
+def camera_of(spec: CameraSpec) -> RenderCamera:
     """Return the preset's camera with the spec's lens.
 
     Raises:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 from scipy.spatial.distance import cdist
 
-from synth.camera.camera import Camera
+from synth.camera.camera import RenderCamera
 from synth.dataset.bop_canvas import Beyond, Canvas, Window, united
 from synth.geometry.mesh import Mesh
 from synth.render.view import Sight
@@ -27,7 +27,7 @@ def object_id(scene: int, instance: int) -> int:
     return MAX_ROCKS * scene + instance + 1
 
 
-def camera_table(camera: Camera, depth_scale: float) -> Table:
+def camera_table(camera: RenderCamera, depth_scale: float) -> Table:
     """Return camera.json; `distortion` only where the lens has one."""
     lens = {} if camera.distortion is None else {"distortion": camera.distortion}
     return {

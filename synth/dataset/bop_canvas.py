@@ -8,7 +8,7 @@ from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 
-from synth.camera.camera import Camera, Pose, distorted, undistorted
+from synth.camera.camera import Pose, RenderCamera, distorted, undistorted
 from synth.geometry.mesh import Mesh
 from synth.light.rays import directions
 from synth.scene.scene import Scene
@@ -78,7 +78,7 @@ def united(windows: list[Window]) -> Window | None:
     return left, top, right, bottom
 
 
-def _strips(camera: Camera, box_px: Floats) -> Iterator[Window]:
+def _strips(camera: RenderCamera, box_px: Floats) -> Iterator[Window]:
     """Yield the windows beyond the frame that a box touches, each few enough pixels at once."""
     width, height = camera.width, camera.height
     low, high = np.array([-width, -height]), np.array([2 * width, 2 * height])
@@ -107,7 +107,7 @@ def _surface(mesh: Mesh) -> EmbreeScene:
 
 
 def _rays(
-    camera: Camera, pose: Pose, window: Window
+    camera: RenderCamera, pose: Pose, window: Window
 ) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
     """Return rays through a window's pixel centres in the world, (n, 3), and which are known.
 

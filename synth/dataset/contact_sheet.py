@@ -15,8 +15,8 @@ Image = NDArray[Any]  # (rows, cols), of one of the kinds that pictures have
 
 _CELL_PX = 240  # the longer side of a small picture
 _GAP_PX = 6
-MOST_SCENES = 8
-_MOST_VIEWS = 4
+MAX_SCENES = 8
+_MAX_VIEWS = 4
 _PAPER = 250
 _TINT = 0.45  # share of a rock's colour in its pixels
 _GOLDEN = 0.618033988749895  # steps of hue that keep neighbours apart
@@ -41,7 +41,7 @@ def sheet_row(folder: Path) -> Bytes:
     over each picture's own range, white where nothing was measured.
     """
     cells = []
-    for path in sorted((folder / "gray").iterdir())[:_MOST_VIEWS]:
+    for path in sorted((folder / "gray").iterdir())[:_MAX_VIEWS]:
         image, depth, labels = (_read(folder / name / path.name) for name in _KINDS)
         cells += [_tinted(image, labels), _coloured(depth)]
     gap = np.full((cells[0].shape[0], _GAP_PX, 3), _PAPER, dtype=np.uint8)

@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.errors import InputError
+from synth.errors import SpecError
 from synth.geometry.mesh import Mesh
 
 Json = Mapping[str, Any] | Sequence[Any]
@@ -46,9 +46,9 @@ def read_json(path: Path) -> Any:
     try:
         return json.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
-        raise InputError(f"{path}: expected a JSON file, found {error.strerror}") from error
+        raise SpecError(f"{path}: expected a JSON file, found {error.strerror}") from error
     except ValueError as error:
-        raise InputError(f"{path}: expected JSON, found {error}") from error
+        raise SpecError(f"{path}: expected JSON, found {error}") from error
 
 
 def write_ply_mm(path: Path, mesh: Mesh) -> None:

@@ -14,7 +14,7 @@ from synth.dataset.files import plain, read_json, write_json
 from synth.dataset.integrity import lost_files, scenes_of
 from synth.dataset.workers import worker_pool
 from synth.dataset.write import PARTIAL, identity, scene_name, write_common, write_scene
-from synth.errors import InputError
+from synth.errors import SpecError
 from synth.render import choose_backend
 from synth.render.backends import BACKENDS
 from synth.spec import RendererName, SceneSpec
@@ -43,7 +43,7 @@ def generate_dataset(
         MissingBackendError: the machine lacks the renderer.
     """
     if jobs < 1:
-        raise InputError(f"jobs: expected at least 1, found {jobs}")
+        raise SpecError(f"jobs: expected at least 1, found {jobs}")
     made = not out.is_dir()
     fresh = made or not any(out.iterdir())
     backend = _claim(spec, out, backend or spec.renderer)
@@ -57,7 +57,7 @@ def generate_dataset(
             try:
                 for name in _rendered(pool, spec, missing, backend, out):
                     bar.advance(name)
-            except InputError:
+            except SpecError:
                 if fresh and not bar.advanced:
                     _sweep(out, made=made)
                 raise
@@ -120,13 +120,13 @@ def _claim(spec: SceneSpec, out: Path, renderer: RendererName) -> RendererName:
     tell; `auto` sticks to the backend that a dataset was begun with.
     """
     if out.exists() and not out.is_dir():
-        raise InputError(f"{out}: expected a folder, found a file")
+        raise SpecError(f"{out}: expected a folder, found a file")
     if out.is_symlink() and not out.exists():
-        raise InputError(f"{out}: expected a folder, found a link to nowhere")
+        raise SpecError(f"{out}: expected a folder, found a link to nowhere")
     begun = next((path for path in _identity_files(out) if path.is_file()), None)
     if begun is None:
         if out.is_dir() and any(path.name != PARTIAL for path in out.iterdir()):
-            raise InputError(f"{out}: expected an empty folder or a dataset, found other files")
+            raise SpecError(f"{out}: expected an empty folder or a dataset, found other files")
         backend = choose_backend(renderer)
         _begin(spec, backend, out)
         return backend
@@ -138,7 +138,7 @@ def _claim(spec: SceneSpec, out: Path, renderer: RendererName) -> RendererName:
     differing = [key for key in ours if key != "spec.renderer" and theirs.get(key) != ours[key]]
     if differing:
         key = differing[0]
-        raise InputError(
+        raise SpecError(
             f"{out}: expected an empty folder or this very dataset, with {key} {ours[key]}, "
             f"found one with {theirs.get(key)}"
         )
@@ -165,7 +165,7 @@ def _begin(spec: SceneSpec, backend: RendererName, out: Path) -> None:
     try:
         (out / PARTIAL).mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise InputError(f"{out}: expected a folder to write to, found {error.strerror}") from error
+        raise SpecError(f"{out}: expected a folder to write to, found {error.strerror}") from error
     draft = out / PARTIAL / "identity.draft"
     write_json(draft, identity(spec, backend))
     draft.replace(out / PARTIAL / "identity.json")
@@ -180,13 +180,13 @@ def _rendered(
         for future in as_completed(futures):
             yield future.result()
     except BrokenProcessPool as error:
-        raise InputError(
+        raise SpecError(
             f"{out}: expected rendering processes to live, found one killed: "
             "with fewer --jobs they need less memory"
         ) from error
     except OSError as error:
         pool.shutdown(wait=True, cancel_futures=True)
-        raise InputError(f"{out}: expected room for files, found {error.strerror}") from error
+        raise SpecError(f"{out}: expected room for files, found {error.strerror}") from error
     except BaseException:
         pool.shutdown(wait=True, cancel_futures=True)
         raise

@@ -12,7 +12,7 @@ _Y_UP = np.array(
     [[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, -1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
 )
 _SURROUNDINGS = 1.25  # the ground is shown this much beyond the farthest rock
-_LEAST_REACH_M = 0.5
+_MIN_REACH_M = 0.5
 _PLAIN_FACES = 2  # of a ground that is a plane through the origin
 
 
@@ -34,7 +34,7 @@ def scene_glb(stage: Stage) -> bytes:
 
 def _reach_m(stage: Stage) -> float:
     ends_m = [float(np.abs(rock.vertices_m[:, :2]).max()) for rock in stage.rocks]
-    return _SURROUNDINGS * max([_LEAST_REACH_M, *ends_m])
+    return _SURROUNDINGS * max([_MIN_REACH_M, *ends_m])
 
 
 def _near(body: Body, reach_m: float) -> Body:

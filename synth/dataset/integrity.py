@@ -5,7 +5,7 @@ from pathlib import Path
 
 from synth.dataset.bop import MAX_ROCKS
 from synth.dataset.files import read_json
-from synth.errors import InputError
+from synth.errors import SpecError
 
 _DIGITS = 6  # of the numbers in file names
 
@@ -23,7 +23,7 @@ def lost_files(out: Path) -> list[str]:
         return []
     files = read_json(manifest).get("files")
     if not isinstance(files, dict):
-        raise InputError(f"{manifest}: files: expected paths with their SHA-256, found {files!r}")
+        raise SpecError(f"{manifest}: files: expected paths with their SHA-256, found {files!r}")
     return sorted(name for name in files if not (out / name).is_file())
 
 

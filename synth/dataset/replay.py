@@ -6,7 +6,7 @@ from typing import Any
 from synth.dataset.files import read_json
 from synth.dataset.generate import generate_dataset
 from synth.dataset.write import file_digests, identity
-from synth.errors import InputError, ReplayError
+from synth.errors import ReplayError, SpecError
 from synth.render.backends import BACKENDS
 from synth.spec import SceneSpec, convert_spec
 
@@ -43,16 +43,16 @@ def replay_dataset(
 def _spec(manifest: Any, path: Path) -> SceneSpec:
     """Return the manifest's spec, or complain of what the manifest lacks."""
     if not isinstance(manifest, dict):
-        raise InputError(f"{path}: expected a manifest, found {type(manifest).__name__}")
+        raise SpecError(f"{path}: expected a manifest, found {type(manifest).__name__}")
     for key in ("spec", "backend", "files"):
         if key not in manifest:
-            raise InputError(f"{path}: expected a manifest, found no key {key!r}")
+            raise SpecError(f"{path}: expected a manifest, found no key {key!r}")
     if manifest["backend"] not in BACKENDS:
-        raise InputError(
+        raise SpecError(
             f"{path}: backend: expected one of {', '.join(BACKENDS)}, found {manifest['backend']!r}"
         )
     if not isinstance(manifest["files"], dict):
-        raise InputError(
+        raise SpecError(
             f"{path}: files: expected paths with their SHA-256, "
             f"found {type(manifest['files']).__name__}"
         )

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.camera.camera import Camera, Pose
+from synth.camera.camera import Pose, RenderCamera
 from synth.dataset.bop import model_info, object_id
 from synth.render.view import Sight
 from synth.rocks.outlines import Form, mesh_form, plane_across
@@ -66,7 +66,7 @@ def _rock(placed: PlacedRock, index: int, instance: int) -> Table:
     }
 
 
-def _visibility(camera: Camera, view: Sight, instance: int) -> Table:
+def _visibility(camera: RenderCamera, view: Sight, instance: int) -> Table:
     count_all = int(view.silhouettes[instance].sum())
     count_visible = int((view.labels == instance + 1).sum())
     left, top, right, bottom = view.boxes_px[instance]
@@ -78,7 +78,7 @@ def _visibility(camera: Camera, view: Sight, instance: int) -> Table:
     }
 
 
-def _scale(camera: Camera, pose: Pose, placed: PlacedRock) -> Table:
+def _scale(camera: RenderCamera, pose: Pose, placed: PlacedRock) -> Table:
     """Return the size of a pixel at the centroid, and whether the corners' radius fills three."""
     depth_m = float(pose.camera_points_m(placed.position_m)[2])
     pixel_m = depth_m / np.sqrt(camera.fx * camera.fy)

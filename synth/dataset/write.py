@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from synth.camera.trajectories import camera_distance_m, camera_of, stations
 from synth.dataset import bop
-from synth.dataset.contact_sheet import MOST_SCENES, sheet_row, write_contact_sheet
+from synth.dataset.contact_sheet import MAX_SCENES, sheet_row, write_contact_sheet
 from synth.dataset.files import read_json, sha256, write_json, write_ply_mm, write_png
 from synth.dataset.glb import scene_glb
 from synth.dataset.shape_truth import scene_gt_shape
@@ -111,7 +111,7 @@ def write_common(
 
     With a pool its processes draw the sheet, row by row.
     """
-    scenes = [out / scene_name(index) for index in range(min(spec.scenes, MOST_SCENES))]
+    scenes = [out / scene_name(index) for index in range(min(spec.scenes, MAX_SCENES))]
     rows = (map if pool is None else pool.map)(sheet_row, scenes)
     camera = camera_of(spec.camera)
     write_json(out / "camera.json", bop.camera_table(camera, depth_scale_mm(spec)))

@@ -9,7 +9,7 @@ from scipy.optimize import linprog
 
 Floats = NDArray[np.float64]
 
-_MOST_TRIED = 4000  # sets of touching faces; beyond, linear programming is faster
+_MAX_TRIED = 4000  # sets of touching faces; beyond, linear programming is faster
 _SLACK = 1e-10  # of the body's size: a face counts as respected
 _SINGULAR = 1e-9
 
@@ -42,7 +42,7 @@ def _sets(faces: int, size: int) -> NDArray[np.int64] | None:
     count = 1.0
     for step in range(size):
         count *= (faces - step) / (step + 1)
-    if count > _MOST_TRIED or faces < size:
+    if count > _MAX_TRIED or faces < size:
         return None
     sets = np.array(list(combinations(range(faces), size)))
     sets.setflags(write=False)

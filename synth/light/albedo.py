@@ -10,7 +10,7 @@ from synth.light.samples import Indices, Samples, Singles
 from synth.light.texture import pattern, wrapped
 from synth.spec.surface import SurfaceSpec
 
-_MOST_PARTS = 4  # of a slanted footprint
+_MAX_PARTS = 4  # of a slanted footprint
 
 
 class Albedo:
@@ -48,7 +48,7 @@ class Albedo:
         broad and keep what is too fine in length, which two eyes see in one row alike and in
         bent rows never.
         """
-        parts = np.clip(np.rint(samples.stretch), 1, _MOST_PARTS).astype(np.int8)
+        parts = np.clip(np.rint(samples.stretch), 1, _MAX_PARTS).astype(np.int8)
         side_m = samples.width_m * np.sqrt(samples.stretch / parts)
         lengths_m = samples.lengths_m()
         texture = np.empty(len(parts), dtype=np.float32)

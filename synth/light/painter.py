@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.camera.camera import Camera, Pose
+from synth.camera.camera import Pose, RenderCamera
 from synth.geometry.mesh import Floats
 from synth.light.albedo import Albedo
 from synth.light.body import Body
@@ -55,7 +55,7 @@ class Painter:
 
     def paint(
         self,
-        camera: Camera,
+        camera: RenderCamera,
         pose: Pose,
         labels: NDArray[np.uint16],
         depth_m: Floats,
@@ -84,7 +84,7 @@ class Painter:
 
     def _centres(
         self,
-        camera: Camera,
+        camera: RenderCamera,
         pose: Pose,
         labels: NDArray[np.uint16],
         depth_m: Floats,
@@ -123,7 +123,7 @@ class Painter:
             return np.ones(len(points_m), dtype=bool)
         return np.asarray(np.abs(points_m @ self._plane) < _ON_PLANE * depth)
 
-    def _refined(self, camera: Camera, pose: Pose, pixels: Indices, factor: int) -> Singles:
+    def _refined(self, camera: RenderCamera, pose: Pose, pixels: Indices, factor: int) -> Singles:
         """Return the brightness of single pixels, each the mean of factor² samples."""
         rows, columns = np.divmod(pixels, camera.width)
         offsets = (np.arange(factor, dtype=np.float32) + 0.5) / factor - 0.5
@@ -139,7 +139,7 @@ class Painter:
         return np.asarray(np.clip(value, 0.0, 1.0).reshape(len(pixels), -1).mean(axis=1))
 
     def _seen(
-        self, camera: Camera, eye_m: Singles, rays: Singles, factor: int
+        self, camera: RenderCamera, eye_m: Singles, rays: Singles, factor: int
     ) -> tuple[Singles, Singles]:
         """Return the light and the brightness at the end of rays from the eye."""
         bright = np.full(len(rays), np.float32(SKY))

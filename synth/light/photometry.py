@@ -15,7 +15,7 @@ Reals = NDArray[np.floating[Any]]
 EXPOSURE = 1.35  # brightness of a white level surface under the whole light
 SKY = 0.75  # brightness of the sky itself
 BOUNCE = 0.4  # share of the sky's light that a surface facing down gets back from the ground
-_LEAST_SINE = 0.5  # the exposure follows the sun down to this sine of its elevation
+_MIN_SINE = 0.5  # the exposure follows the sun down to this sine of its elevation
 _USUAL_EMISSION = np.cos(
     np.deg2rad(80.0)
 )  # level ground seen at this angle has E ρ; most is darker
@@ -59,7 +59,7 @@ def light(
     0.5 at least, so that a low sun does not overexpose what faces it.
     """
     share = lunar_share(surface)
-    height = np.array(max(towards_sun(sun)[2], _LEAST_SINE))
+    height = np.array(max(towards_sun(sun)[2], _MIN_SINE))
     unit = float(reflected(height, np.array(_USUAL_EMISSION), share))
     sky = 1.0 - (1.0 - BOUNCE) * (1.0 - upward) / 2.0
     direct = reflected(incidence, emission, share) / unit

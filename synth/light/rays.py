@@ -8,7 +8,7 @@ from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 
-from synth.camera.camera import Camera, Pose, undistorted
+from synth.camera.camera import Pose, RenderCamera, undistorted
 from synth.light.body import Body
 
 Singles = NDArray[np.float32]
@@ -62,7 +62,7 @@ class Surfaces:
         return np.asarray(self._scene.run(origins_m, rays, query="OCCLUDED") >= 0)
 
 
-def directions(camera: Camera, pose: Pose, columns: Singles, rows: Singles) -> Singles:
+def directions(camera: RenderCamera, pose: Pose, columns: Singles, rows: Singles) -> Singles:
     """Return rays through pixels in the world, shaped as columns and rows broadcast, and 3.
 
     Their z in the camera's frame is 1, so lengths along them are z-depths.

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.camera.camera import Camera
+from synth.camera.camera import RenderCamera
 
 Singles = NDArray[np.float32]
 Indices = NDArray[np.int64]
@@ -31,7 +31,7 @@ class Samples:
         return np.asarray(away)
 
 
-def width_m(camera: Camera, depth: Singles) -> Singles:
+def width_m(camera: RenderCamera, depth: Singles) -> Singles:
     """Return a pixel's breadth at a z-depth, (n,)."""
     return np.asarray(depth / np.float32(np.sqrt(camera.fx * camera.fy)))
 

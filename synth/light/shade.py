@@ -12,7 +12,7 @@ from synth.light.body import Body
 Singles = NDArray[np.float32]
 
 _CELLS = 2048  # along the longer side
-_LEAST_CELL_M = 0.01
+_MIN_CELL_M = 0.01
 
 
 class ShadowMap:
@@ -34,7 +34,7 @@ class ShadowMap:
         shadows_m = [body.vertices_m @ axes for body in casters]
         low_m = np.min([shadow.min(axis=0) for shadow in shadows_m], axis=0)
         high_m = np.max([shadow.max(axis=0) for shadow in shadows_m], axis=0)
-        self._cell_m = max(_LEAST_CELL_M, float((high_m - low_m).max()) / _CELLS)
+        self._cell_m = max(_MIN_CELL_M, float((high_m - low_m).max()) / _CELLS)
         self._axes = axes.astype(np.float32) / np.float32(self._cell_m)
         self._corner = (low_m / self._cell_m - 3.0).astype(np.float32)
         size = np.ceil((high_m - low_m) / self._cell_m).astype(int) + 7

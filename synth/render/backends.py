@@ -9,7 +9,7 @@ import subprocess
 import sys
 from functools import cache
 
-from synth.camera.camera import Camera
+from synth.camera.camera import RenderCamera
 from synth.errors import MissingBackendError
 from synth.light import Stage
 from synth.render.interface import Renderer
@@ -56,7 +56,7 @@ def has_backend(name: RendererName) -> bool:
     return importlib.util.find_spec("embreex") is not None
 
 
-def open_renderer(backend: RendererName, stage: Stage, camera: Camera) -> Renderer:
+def open_renderer(backend: RendererName, stage: Stage, camera: RenderCamera) -> Renderer:
     """Return a renderer of the stage; for OpenGL, this process is bound to the backend for good.
 
     OpenGL draws straight lines only: a camera whose lens distorts is ray cast by Embree, which

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.camera.camera import Camera, Pose
+from synth.camera.camera import Pose, RenderCamera
 from synth.light import Stage
 from synth.light.rays import Surfaces, directions
 
@@ -15,7 +15,7 @@ _RAYS_AT_ONCE = 1 << 18
 class EmbreeRenderer:
     """A stage as an Embree scene, the one that the painter has already."""
 
-    def __init__(self, stage: Stage, camera: Camera) -> None:
+    def __init__(self, stage: Stage, camera: RenderCamera) -> None:
         self._stage, self._camera = stage, camera
 
     def measure(

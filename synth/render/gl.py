@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from OpenGL import contextdata
 from pyrender.constants import GLTF, RenderFlags
 
-from synth.camera.camera import Camera, Pose
+from synth.camera.camera import Pose, RenderCamera
 from synth.light import Body, Stage
 
 # pyrender collects garbage whenever a context is deleted; the imported modules, which stay, need
@@ -31,7 +31,7 @@ class GLRenderer:
     lose memory with every frame.
     """
 
-    def __init__(self, stage: Stage, camera: Camera) -> None:
+    def __init__(self, stage: Stage, camera: RenderCamera) -> None:
         self._camera = camera
         self._scene = pyrender.Scene()
         self._rocks = [self._scene.add(_mesh(rock)) for rock in stage.rocks]
@@ -73,7 +73,7 @@ class GLRenderer:
 
 
 def gl_eye(
-    camera: Camera, pose: Pose, limits_m: tuple[float, float]
+    camera: RenderCamera, pose: Pose, limits_m: tuple[float, float]
 ) -> tuple[pyrender.IntrinsicsCamera, NDArray[np.float64]]:
     """Return pyrender's camera between two depths, and its place in the world, (4, 4)."""
     # pyrender's pixel centres are at +0.5.

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.camera.camera import Camera, Pose, border_rays, project
+from synth.camera.camera import Pose, RenderCamera, border_rays, project
 from synth.light import Stage
 from synth.render.interface import Renderer
 from synth.render.silhouettes import Silhouettes
@@ -26,7 +26,7 @@ class Sight:
 
 
 @dataclass(frozen=True, eq=False)
-class View(Sight):
+class RenderedView(Sight):
     """What the camera sees from one station."""
 
     image: NDArray[np.uint8]  # (rows, cols)
@@ -39,8 +39,8 @@ class View(Sight):
 
 
 def render_view(
-    renderer: Renderer, stage: Stage, camera: Camera, pose: Pose, *, supersample: int
-) -> View:
+    renderer: Renderer, stage: Stage, camera: RenderCamera, pose: Pose, *, supersample: int
+) -> RenderedView:
     """Return one view; at edges the image is the mean of supersample² samples in each pixel."""
     limits_m = depth_limits_m(stage, camera, pose)
     labels, depth_m = renderer.measure(pose, limits_m, None)
@@ -50,7 +50,7 @@ def render_view(
     for group in _hidden_groups(boxes_px, camera):
         alone, _ = renderer.measure(pose, limits_m, group)
         silhouettes.replace(group, alone)
-    return View(
+    return RenderedView(
         image=np.rint(255.0 * np.clip(light, 0.0, 1.0)).astype(np.uint8),
         light=light,
         depth_m=depth_m,
@@ -61,14 +61,14 @@ def render_view(
 
 
 def render_light(
-    renderer: Renderer, stage: Stage, camera: Camera, pose: Pose, *, supersample: int
+    renderer: Renderer, stage: Stage, camera: RenderCamera, pose: Pose, *, supersample: int
 ) -> NDArray[np.float32]:
     """Return the light of one view alone, (rows, cols), 1 for white."""
     labels, depth_m = renderer.measure(pose, depth_limits_m(stage, camera, pose), None)
     return stage.painter.paint(camera, pose, labels, depth_m, supersample=supersample)
 
 
-def depth_limits_m(stage: Stage, camera: Camera, pose: Pose) -> tuple[float, float]:
+def depth_limits_m(stage: Stage, camera: RenderCamera, pose: Pose) -> tuple[float, float]:
     """Return the least and the greatest depth in view, with a little to spare.
 
     The ground's are its plane's along the frame's border, and as much nearer as ripples and
@@ -89,7 +89,7 @@ def depth_limits_m(stage: Stage, camera: Camera, pose: Pose) -> tuple[float, flo
     return float(ahead_m.min()) * (1.0 - _SLACK), float(ahead_m.max()) * (1.0 + _SLACK)
 
 
-def _box_px(vertices_m: Floats, camera: Camera, pose: Pose) -> Floats:
+def _box_px(vertices_m: Floats, camera: RenderCamera, pose: Pose) -> Floats:
     """Return left, top, right, bottom of a rock's projection, (4,); NaN if not all is ahead."""
     points_m = pose.camera_points_m(vertices_m)
     if points_m[:, 2].min() <= _NEAREST_M:
@@ -98,7 +98,7 @@ def _box_px(vertices_m: Floats, camera: Camera, pose: Pose) -> Floats:
     return np.concatenate([pixels.min(axis=0), pixels.max(axis=0)])
 
 
-def _hidden_groups(boxes_px: tuple[Floats, ...], camera: Camera) -> list[list[int]]:
+def _hidden_groups(boxes_px: tuple[Floats, ...], camera: RenderCamera) -> list[list[int]]:
     """Return the rocks whose boxes overlap another's, in groups without overlap inside.
 
     A rock whose box is free of all others is seen whole: its label is its silhouette already; one

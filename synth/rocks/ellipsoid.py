@@ -6,14 +6,14 @@ from scipy.special import elliprg
 
 from synth.geometry.mesh import Mesh
 from synth.rocks.outlines import EllipsoidForm
-from synth.rocks.record import Rock
+from synth.rocks.record import RockModel
 from synth.rocks.sphere import SUBDIVISIONS, unit_sphere
 from synth.rocks.truth import Truth
 
 Floats = NDArray[np.float64]
 
 
-def ellipsoid(half_axes_m: Floats) -> Rock:
+def ellipsoid(half_axes_m: Floats) -> RockModel:
     """Return the solid ellipsoid with half-axes (3,), a >= b >= c.
 
     V = 4πabc/3; S by Carlson's symmetric integral; among orthogonal boxes round an ellipsoid,
@@ -28,7 +28,7 @@ def ellipsoid(half_axes_m: Floats) -> Rock:
         area_m2=ellipsoid_area_m2(half_axes_m),
         roundness=None,
     )
-    return Rock(
+    return RockModel(
         family="ellipsoid",
         knobs={},
         mesh=ellipsoid_mesh(half_axes_m),

@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.errors import InputError
+from synth.errors import SpecError
 from synth.rocks.ellipsoid import ellipsoid
 from synth.rocks.polyhedron import tangent_cuts
 from synth.rocks.realistic import Realism, realistic
-from synth.rocks.record import Rock
+from synth.rocks.record import RockModel
 from synth.rocks.relief import with_relief
 from synth.rocks.rounded import UnsettledError, rounded_box, rounded_polyhedron
 from synth.rocks.scan import scan
@@ -18,7 +18,7 @@ from synth.rocks.superellipsoid import superellipsoid
 from synth.spec.rocks import RocksSpec
 
 Floats = NDArray[np.float64]
-Draw = Callable[[RocksSpec, Floats, np.random.Generator], Rock]
+Draw = Callable[[RocksSpec, Floats, np.random.Generator], RockModel]
 
 _ATTEMPTS = 60
 
@@ -30,7 +30,9 @@ def draw_half_axes_m(spec: RocksSpec, *, rng: np.random.Generator) -> Floats:
     return np.array([longest, middle, middle * rng.uniform(*spec.c_over_b)])
 
 
-def draw_rock(spec: RocksSpec, family: str, half_axes_m: Floats, rng: np.random.Generator) -> Rock:
+def draw_rock(
+    spec: RocksSpec, family: str, half_axes_m: Floats, rng: np.random.Generator
+) -> RockModel:
     """Return a rock of a family, with relief where the spec asks for it.
 
     Relief draws from a generator of its own: it leaves the forms alone.
@@ -48,7 +50,7 @@ def polyhedra(
     targets: list[tuple[Floats, float]],
     *,
     rng: np.random.Generator,
-) -> list[Rock]:
+) -> list[RockModel]:
     """Return one random polyhedron with several half-axes and roundings, drawn until all hold.
 
     Raises:
@@ -60,7 +62,7 @@ def polyhedra(
             return [rounded_polyhedron(polyhedron, axes, rounding=k) for axes, k in targets]
         except UnsettledError:
             continue
-    raise InputError(
+    raise SpecError(
         f"rocks.rounding: expected values that hold the half-axes, found {list(spec.rounding)}"
     )
 
@@ -69,24 +71,26 @@ def _draw_integer(limits: tuple[int, int], rng: np.random.Generator) -> int:
     return int(rng.integers(limits[0], limits[1] + 1))
 
 
-def _draw_polyhedron(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> Rock:
+def _draw_polyhedron(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> RockModel:
     return polyhedra(spec, [(half_axes_m, rng.uniform(*spec.rounding))], rng=rng)[0]
 
 
-def _draw_box(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> Rock:
+def _draw_box(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> RockModel:
     return rounded_box(half_axes_m, rounding=rng.uniform(*spec.rounding))
 
 
-def _draw_ellipsoid(_: RocksSpec, half_axes_m: Floats, __: np.random.Generator) -> Rock:
+def _draw_ellipsoid(_: RocksSpec, half_axes_m: Floats, __: np.random.Generator) -> RockModel:
     return ellipsoid(half_axes_m)
 
 
-def _draw_superellipsoid(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> Rock:
+def _draw_superellipsoid(
+    spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator
+) -> RockModel:
     exponents = rng.uniform(*spec.exponents), rng.uniform(*spec.exponents)
     return superellipsoid(half_axes_m, exponents=exponents)
 
 
-def _draw_realistic(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> Rock:
+def _draw_realistic(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> RockModel:
     knobs = spec.realism
     realism = Realism(
         cuts=_draw_integer(knobs.cuts, rng),
@@ -101,7 +105,7 @@ def _draw_realistic(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generat
     return realistic(half_axes_m, realism, rng=rng)
 
 
-def _draw_scan(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> Rock:
+def _draw_scan(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> RockModel:
     path = spec.scans[int(rng.integers(len(spec.scans)))]
     return scan(path, diameter_m=2.0 * float(half_axes_m[0]))
 

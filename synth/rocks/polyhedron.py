@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 
-from synth.errors import InputError
+from synth.errors import SpecError
 from synth.geometry.inscribed_ball import largest_ball
 
 Floats = NDArray[np.float64]
@@ -76,7 +76,7 @@ def from_half_spaces(normals: Floats, offsets_m: Floats) -> Polyhedron:
         InputError: the half-spaces leave the body unbounded.
     """
     if not _surround_origin(normals):
-        raise InputError("half-spaces: expected a bounded body, found an open one")
+        raise SpecError("half-spaces: expected a bounded body, found an open one")
     half_spaces = np.column_stack([normals, -offsets_m])
     points_m = HalfspaceIntersection(half_spaces, np.zeros(3)).intersections
     size_m = float(np.abs(points_m).max())
@@ -102,11 +102,11 @@ def tangent_cuts(half_axes_m: Floats, *, cuts: int, rng: np.random.Generator) ->
         normals = _spread_directions(cuts, rng)
         try:
             ball = from_half_spaces(normals, np.ones(cuts))
-        except InputError:
+        except SpecError:
             continue
         if np.linalg.norm(ball.vertices_m, axis=1).max() < 2.0:
             return ball.mapped(np.diag(half_axes_m))
-    raise InputError(f"rocks.cuts: expected enough to bound a rock, found {cuts}")
+    raise SpecError(f"rocks.cuts: expected enough to bound a rock, found {cuts}")
 
 
 def cuboid(half_axes_m: Floats) -> Polyhedron:

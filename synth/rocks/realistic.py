@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from synth.geometry.mesh import Mesh, centroid_m, vertex_normals
-from synth.rocks.record import Rock
+from synth.rocks.record import RockModel
 from synth.rocks.relief import boxed, displaced
 from synth.rocks.sphere import unit_sphere
 
@@ -40,7 +40,7 @@ class Realism:
     subdivisions: int  # 20 × 4^n facets
 
 
-def realistic(half_axes_m: Floats, realism: Realism, *, rng: np.random.Generator) -> Rock:
+def realistic(half_axes_m: Floats, realism: Realism, *, rng: np.random.Generator) -> RockModel:
     """Return a broken rock whose smallest box has about the given half-axes.
 
     On a direction w its unit form has the radius (Σ_i (n_i·w/h_i(w))^p)^(-1/p) over its cuts: a

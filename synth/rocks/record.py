@@ -9,7 +9,7 @@ from synth.rocks.truth import Truth
 
 
 @dataclass(frozen=True, eq=False)
-class Rock:
+class RockModel:
     """One body in its own frame: the origin at its centroid, a, b, c of its box along x, y, z."""
 
     family: str

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.errors import InputError
+from synth.errors import SpecError
 from synth.geometry.mesh import (
     Mesh,
     area_m2,
@@ -17,7 +17,7 @@ from synth.geometry.mesh import (
 )
 from synth.geometry.min_volume_box import smallest_box
 from synth.rocks.outlines import RoundedHull
-from synth.rocks.record import Rock
+from synth.rocks.record import RockModel
 from synth.rocks.resample import even_mesh
 from synth.rocks.sphere import SUBDIVISIONS, band_limited
 from synth.rocks.truth import Truth, half_axes_of_covariance_m
@@ -30,13 +30,13 @@ _FOR_EDGES, _FINEST = 6, 7  # splits for a form with edges; the most
 
 
 def with_relief(
-    rock: Rock,
+    rock: RockModel,
     *,
     relief_rms: float,
     degrees: tuple[int, int],
     rng: np.random.Generator,
     halvings: int = 0,
-) -> Rock:
+) -> RockModel:
     """Return the rock with relief on it, turned into its own smallest box.
 
     The relief's height is a function of the direction from the centroid alone, of the given
@@ -106,7 +106,7 @@ def boxed(
     knobs: dict[str, float],
     relief_rms_m: float | None,
     degrees: tuple[int, int] | None,
-) -> Rock:
+) -> RockModel:
     """Return the rock that a mesh is, turned into its smallest box, its centroid at the origin."""
     box = smallest_box(mesh.vertices_m)
     truth = Truth(
@@ -118,7 +118,7 @@ def boxed(
         relief_rms_m=relief_rms_m,
         relief_degrees=degrees,
     )
-    return Rock(
+    return RockModel(
         family=family,
         knobs=knobs,
         mesh=mesh.moved(box.axes, -box.axes @ centroid_m(mesh)),
@@ -126,7 +126,7 @@ def boxed(
     )
 
 
-def _subdivisions(rock: Rock, last_degree: int) -> int:
+def _subdivisions(rock: RockModel, last_degree: int) -> int:
     """Return how often the sphere's 20 facets are split to hold the relief and the form."""
     wave_rad = 2.0 * np.pi / last_degree
     for subdivisions in range(SUBDIVISIONS, _FINEST):
@@ -149,7 +149,7 @@ def _require_unfolded(smooth: Mesh, rough: Mesh, along: Floats) -> None:
     turned = np.einsum("ij,ij->i", before, after) <= 0.0
     folded = int((upright & ~still_upright & turned).sum())
     if folded:
-        raise InputError(
+        raise SpecError(
             f"rocks.relief_rms: expected relief that folds no facet over, "
             f"found {folded} of {len(rough.faces)} folded"
         )

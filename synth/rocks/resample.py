@@ -5,21 +5,21 @@ import trimesh
 from numpy.typing import NDArray
 from trimesh.ray.ray_pyembree import RayMeshIntersector
 
-from synth.errors import InputError
+from synth.errors import SpecError
 from synth.geometry.mesh import Mesh, vertex_normals
 from synth.rocks.ellipsoid import ellipsoid_mesh
 from synth.rocks.outlines import EllipsoidForm, SuperellipsoidForm
-from synth.rocks.record import Rock
+from synth.rocks.record import RockModel
 from synth.rocks.sphere import unit_sphere
 from synth.rocks.superellipsoid import superellipsoid_mesh
 
 Floats = NDArray[np.float64]
 
-_LEAST_LOOPS = 2
+_MIN_LOOPS = 2
 _NUDGES = (0.0, 1e-5, -1e-5, 1e-4, -1e-4)  # turns of a ray that slipped through, rad
 
 
-def even_mesh(rock: Rock, *, subdivisions: int) -> Mesh:
+def even_mesh(rock: RockModel, *, subdivisions: int) -> Mesh:
     """Return a rock's surface on a mesh of about 20 × 4^subdivisions facets.
 
     Smooth forms are meshed anew, their vertices on the surface. A body that is known by its facets
@@ -45,7 +45,7 @@ def _rounded_off(mesh: Mesh, *, facets: int) -> Mesh:
     Each splits every facet in four and moves its corners towards a surface without creases
     (Loop 1987); at least two, to be rid of the facets.
     """
-    times = max(_LEAST_LOOPS, round(np.log(facets / len(mesh.faces)) / np.log(4.0)))
+    times = max(_MIN_LOOPS, round(np.log(facets / len(mesh.faces)) / np.log(4.0)))
     vertices_m, faces = trimesh.remesh.subdivide_loop(  # type: ignore[no-untyped-call]
         mesh.vertices_m, mesh.faces, iterations=times
     )
@@ -74,7 +74,7 @@ def resampled(mesh: Mesh, half_axes_m: Floats, *, subdivisions: int) -> Mesh:
         starts_m = far_m * (rays[missed] + nudge)
         reach_m[missed] = _reach_m(mesh, rays[missed], surface, starts_m)
     if (reach_m <= 0.0).any():
-        raise InputError("rocks.relief: expected a body round its centroid, found one beside it")
+        raise SpecError("rocks.relief: expected a body round its centroid, found one beside it")
     vertices_m = reach_m[:, None] * rays
     return Mesh(vertices_m=vertices_m, faces=faces, normals=vertex_normals(vertices_m, faces))
 

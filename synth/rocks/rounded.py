@@ -13,7 +13,7 @@ from synth.rocks.polyhedron import (
     functionals,
     inradius_m,
 )
-from synth.rocks.record import Rock
+from synth.rocks.record import RockModel
 from synth.rocks.rounding import rounded_area_m2, rounded_mesh, rounded_volume_m3
 from synth.rocks.truth import Truth, half_axes_of_covariance_m
 
@@ -60,7 +60,9 @@ def hold_axes(
     raise UnsettledError
 
 
-def rounded_polyhedron(polyhedron: Polyhedron, half_axes_m: Floats, *, rounding: float) -> Rock:
+def rounded_polyhedron(
+    polyhedron: Polyhedron, half_axes_m: Floats, *, rounding: float
+) -> RockModel:
     """Return the rock P' ⊕ B_r with the given half-axes; see `hold_axes`, which may raise."""
     body, radius_m = hold_axes(polyhedron, half_axes_m, rounding=rounding)
     box_m = smallest_box(body.vertices_m, margin_m=radius_m).half_sides_m
@@ -68,7 +70,7 @@ def rounded_polyhedron(polyhedron: Polyhedron, half_axes_m: Floats, *, rounding:
     return _rock("rounded-polyhedron", body, radius_m, box_m, knobs)
 
 
-def rounded_box(half_axes_m: Floats, *, rounding: float) -> Rock:
+def rounded_box(half_axes_m: Floats, *, rounding: float) -> RockModel:
     """Return the rock box ⊕ B_r with the given half-axes; r = rounding × the box's least half side.
 
     c = core + r and r = rounding × core give r = c × rounding/(1 + rounding).
@@ -80,7 +82,7 @@ def rounded_box(half_axes_m: Floats, *, rounding: float) -> Rock:
 
 def _rock(
     family: str, body: Polyhedron, radius_m: float, box_m: Floats, knobs: dict[str, float]
-) -> Rock:
+) -> RockModel:
     """Return the record of P ⊕ B_r, its centroid at the origin."""
     mesh = rounded_mesh(body, radius_m)
     inside_m = inradius_m(body)
@@ -96,7 +98,7 @@ def _rock(
         radius_m=radius_m,
     )
     shift_m = -centroid_m(mesh)
-    return Rock(
+    return RockModel(
         family=family,
         knobs={**knobs, "radius_m": radius_m, "inradius_m": inside_m},
         mesh=mesh.moved(np.eye(3), shift_m),

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synth.rocks.families import MIXED, draw_half_axes_m, draw_rock, polyhedra
-from synth.rocks.record import Rock
+from synth.rocks.record import RockModel
 from synth.rocks.relief import with_relief
 from synth.rocks.rounded import rounded_box
 from synth.spec.rocks import RocksSpec
@@ -16,7 +16,7 @@ from synth.spec.rocks import RocksSpec
 Floats = NDArray[np.float64]
 
 
-def quarry(spec: RocksSpec, *, rng: np.random.Generator) -> list[Rock]:
+def quarry(spec: RocksSpec, *, rng: np.random.Generator) -> list[RockModel]:
     """Return the rocks of one scene, in an order that tells nothing of their shape."""
     if spec.series in SERIES:
         rocks = SERIES[spec.series](spec, rng=rng)
@@ -34,7 +34,7 @@ def quarry(spec: RocksSpec, *, rng: np.random.Generator) -> list[Rock]:
     ]
 
 
-def graded(spec: RocksSpec, *, rng: np.random.Generator) -> list[Rock]:
+def graded(spec: RocksSpec, *, rng: np.random.Generator) -> list[RockModel]:
     """Return rocks from angular to round, alike in everything else.
 
     All come from one polyhedron, or one box, with one set of half-axes: the rounding alone sets
@@ -49,7 +49,7 @@ def graded(spec: RocksSpec, *, rng: np.random.Generator) -> list[Rock]:
     return _rounded(spec, [(half_axes_m, float(rho / (1.0 - rho))) for rho in roundness], rng)
 
 
-def by_sphericity(spec: RocksSpec, *, rng: np.random.Generator) -> list[Rock]:
+def by_sphericity(spec: RocksSpec, *, rng: np.random.Generator) -> list[RockModel]:
     """Return rocks from flat and long to equant, of one polyhedron or box and one rounding.
 
     b/a and c/b rise together in equal steps over their ranges; 2a stays. The roundness
@@ -67,7 +67,7 @@ def by_sphericity(spec: RocksSpec, *, rng: np.random.Generator) -> list[Rock]:
     return _rounded(spec, targets, rng)
 
 
-def by_relief(spec: RocksSpec, *, rng: np.random.Generator) -> list[Rock]:
+def by_relief(spec: RocksSpec, *, rng: np.random.Generator) -> list[RockModel]:
     """Return rocks of one form under one relief, from smooth to rough: its height alone differs."""
     plain = msgspec.structs.replace(spec, relief=False, series="random")
     family = "ellipsoid" if spec.family == "perturbed" else spec.family
@@ -86,7 +86,7 @@ def by_relief(spec: RocksSpec, *, rng: np.random.Generator) -> list[Rock]:
 
 def _rounded(
     spec: RocksSpec, targets: list[tuple[Floats, float]], rng: np.random.Generator
-) -> list[Rock]:
+) -> list[RockModel]:
     """Return one box or polyhedron with each of the half-axes and roundings."""
     if spec.family == "rounded-box":
         rocks = [rounded_box(half_axes_m, rounding=rounding) for half_axes_m, rounding in targets]
@@ -104,7 +104,7 @@ def _rounded(
     ]
 
 
-SERIES: Mapping[str, Callable[..., list[Rock]]] = {
+SERIES: Mapping[str, Callable[..., list[RockModel]]] = {
     "graded": graded,
     "sphericity": by_sphericity,
     "relief": by_relief,

@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from synth.geometry.mesh import Mesh
 from synth.rocks.outlines import SuperellipsoidForm
-from synth.rocks.record import Rock
+from synth.rocks.record import RockModel
 from synth.rocks.sphere import unit_sphere
 from synth.rocks.truth import Truth
 
@@ -15,7 +15,7 @@ NODES = 160  # Gauss-Legendre nodes along each of an octant's two angles
 SUBDIVISIONS = 6  # 81,920 faces: with exponents up to 10 the facets take 1e-3 of the volume
 
 
-def superellipsoid(half_axes_m: Floats, *, exponents: tuple[float, float]) -> Rock:
+def superellipsoid(half_axes_m: Floats, *, exponents: tuple[float, float]) -> RockModel:
     """Return (|x/a|^p + |y/b|^p)^(q/p) + |z/c|^q <= 1 for exponents p, q >= 2.
 
     Its aligned box is the smallest: the support function is an l_P, l_Q norm of (au, bv, cw) with
@@ -31,7 +31,7 @@ def superellipsoid(half_axes_m: Floats, *, exponents: tuple[float, float]) -> Ro
         area_m2=area_m2,
         roundness=None,
     )
-    return Rock(
+    return RockModel(
         family="superellipsoid",
         knobs={"exponent_level": exponents[0], "exponent_steep": exponents[1]},
         mesh=superellipsoid_mesh(half_axes_m, exponents),

@@ -13,14 +13,14 @@ Floats = NDArray[np.float64]
 
 HALF_SIDE_M = 150.0
 _CELLS_PER_RIPPLE = 10
-_MOST_CELLS = 700  # along a side of the rippled part
+_MAX_CELLS = 700  # along a side of the rippled part
 _GROWTH = 1.25  # of the cells outside of it
 _WANDER = 0.6  # how far crests stray from straight lines, in ripple lengths
 _SECOND = 0.2  # amplitude of the second harmonic, which sharpens the crests
 
 
 @dataclass(frozen=True, eq=False)
-class Ground:
+class Terrain:
     """z over x and y: g·(x, y), and ripples within a radius that fade out round it."""
 
     gradient: Floats  # (2,), the slope
@@ -78,14 +78,14 @@ class Ground:
             return np.array([-HALF_SIDE_M, HALF_SIDE_M])
         rippled_m = 1.4 * self.radius_m
         wanted_m = 2.0 * np.pi / float(np.linalg.norm(self.wave_per_m)) / _CELLS_PER_RIPPLE
-        cells = min(_MOST_CELLS, int(np.ceil(2.0 * rippled_m / wanted_m)))
+        cells = min(_MAX_CELLS, int(np.ceil(2.0 * rippled_m / wanted_m)))
         inner_m = np.linspace(-rippled_m, rippled_m, cells + 1)
         steps = int(np.ceil(np.log(HALF_SIDE_M / rippled_m) / np.log(_GROWTH)))
         outer_m = np.geomspace(rippled_m, HALF_SIDE_M, max(steps, 1) + 1)[1:]
         return np.concatenate([-outer_m[::-1], inner_m, outer_m])
 
 
-def make_ground(spec: GroundSpec, *, radius_m: float, rng: np.random.Generator) -> Ground:
+def make_ground(spec: GroundSpec, *, radius_m: float, rng: np.random.Generator) -> Terrain:
     """Return the ground, its ripples and pebbles within a radius of the scene's centre."""
     azimuth_rad = np.deg2rad(spec.slope_azimuth_deg)
     rise = np.tan(np.deg2rad(spec.slope_deg))
@@ -103,7 +103,7 @@ def make_ground(spec: GroundSpec, *, radius_m: float, rng: np.random.Generator) 
             for order in (1.0, 1.7, 2.9)
         ]
     )
-    bare = Ground(
+    bare = Terrain(
         gradient=gradient,
         ripple_height_m=spec.ripple_height_m,
         wave_per_m=wave * np.array([np.cos(across_rad), np.sin(across_rad)]),
@@ -112,4 +112,4 @@ def make_ground(spec: GroundSpec, *, radius_m: float, rng: np.random.Generator) 
         stones=None,
     )
     stones = pebbles(spec, bare.heights_m, radius_m=radius_m, rng=rng)
-    return Ground(bare.gradient, bare.ripple_height_m, bare.wave_per_m, bends, radius_m, stones)
+    return Terrain(bare.gradient, bare.ripple_height_m, bare.wave_per_m, bends, radius_m, stones)

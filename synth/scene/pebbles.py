@@ -7,17 +7,17 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
-from synth.errors import InputError
+from synth.errors import SpecError
 from synth.geometry.mesh import Mesh, vertex_normals
 from synth.spec.ground import GroundSpec
 
 Floats = NDArray[np.float64]
 
-_MOST = 60_000
+_MAX_PEBBLES = 60_000
 _CORNERS = 22
 _SHAPES = 12
 _STEEPNESS = 3.0  # numbers fall as diameter^−3, as in the smallest sizes of rock counts
-_LEAST_AXIS = 0.5
+_MIN_AXIS = 0.5
 
 
 def pebbles(
@@ -37,9 +37,9 @@ def pebbles(
     count = round(spec.pebbles_per_m2 * np.pi * radius_m**2)
     if count == 0:
         return None
-    if count > _MOST:
-        raise InputError(
-            f"ground.pebbles_per_m2: expected at most {_MOST} pebbles on a disc of "
+    if count > _MAX_PEBBLES:
+        raise SpecError(
+            f"ground.pebbles_per_m2: expected at most {_MAX_PEBBLES} pebbles on a disc of "
             f"{radius_m:g} m, found {count}"
         )
     shapes = [_shape(rng) for _ in range(_SHAPES)]
@@ -69,7 +69,7 @@ def _shape(rng: np.random.Generator) -> tuple[Floats, NDArray[np.int64]]:
     """Return a stone's corners, (n, 3) with longest half-axis 1 or less, and outward faces."""
     points = rng.standard_normal((_CORNERS, 3))
     points /= np.linalg.norm(points, axis=1, keepdims=True)
-    points *= np.sort(rng.uniform(_LEAST_AXIS, 1.0, size=3))[::-1]
+    points *= np.sort(rng.uniform(_MIN_AXIS, 1.0, size=3))[::-1]
     hull = ConvexHull(points)
     faces = hull.simplices.astype(np.int64)
     corners = points[faces]

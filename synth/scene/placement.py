@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.camera.camera import Camera, Pose, border_rays
-from synth.errors import InputError
+from synth.camera.camera import Pose, RenderCamera, border_rays
+from synth.errors import SpecError
 from synth.geometry.mesh import Mesh
 from synth.spec.population import PopulationSpec
 
@@ -22,7 +22,7 @@ _FRAME_MARGIN = 1.05  # a rock's sphere, with this much to spare, lies inside ev
 
 
 @dataclass(frozen=True, eq=False)
-class Yard:
+class PlacementArea:
     """Ground on which rocks may lie, all inside every view."""
 
     reach_m: float  # from the scene's centre
@@ -31,7 +31,7 @@ class Yard:
     gradient: Floats  # (2,), of the ground's plane
 
 
-def scatter(meshes: Sequence[Mesh], yard: Yard, *, rng: np.random.Generator) -> Floats:
+def scatter(meshes: Sequence[Mesh], yard: PlacementArea, *, rng: np.random.Generator) -> Floats:
     """Return places (n, 2) on the ground for rocks that stand on the vertical through the origin.
 
     The distance between two places is at least spacing × the sum of the rocks' radii about the
@@ -48,7 +48,7 @@ def scatter(meshes: Sequence[Mesh], yard: Yard, *, rng: np.random.Generator) -> 
 
 
 def refuse_crowd(
-    count: int, sample: Sequence[Mesh], yard: Yard, *, rng: np.random.Generator
+    count: int, sample: Sequence[Mesh], yard: PlacementArea, *, rng: np.random.Generator
 ) -> None:
     """Raise if by far not so many rocks fit, before all are made: a few stand for the rest.
 
@@ -60,7 +60,9 @@ def refuse_crowd(
         raise _full(len(places_m), yard, count)
 
 
-def _thrown(sizes_m: Floats, yard: Yard, rng: np.random.Generator, *, starts: int) -> Floats:
+def _thrown(
+    sizes_m: Floats, yard: PlacementArea, rng: np.random.Generator, *, starts: int
+) -> Floats:
     """Return places for rocks of the sizes (n, 2) of `_sizes_m`; where not all fit, the most."""
     radii_m, middles_m = sizes_m.T
     spheres_m = _FRAME_MARGIN * np.hypot(radii_m, middles_m)
@@ -84,8 +86,8 @@ def _thrown(sizes_m: Floats, yard: Yard, rng: np.random.Generator, *, starts: in
     return most_m
 
 
-def _full(most: int, yard: Yard, count: int) -> InputError:
-    return InputError(
+def _full(most: int, yard: PlacementArea, count: int) -> SpecError:
+    return SpecError(
         f"rocks.count: the ground in view is full: expected at most {most} rocks at "
         f"spacing {yard.spacing:g}, found {count}"
     )
@@ -125,7 +127,7 @@ def strew(
                 places_m = np.vstack([places_m, darts_m[np.argmax(free)]])
                 break
         else:
-            raise InputError(
+            raise SpecError(
                 f"population.k: the ground is full: {number} rocks fit on a disc of "
                 f"{spec.radius_m:g} m ({spec.layout}), found {len(meshes)}"
             )
@@ -143,7 +145,7 @@ def reaches_m(meshes: Sequence[Mesh]) -> Floats:
     return np.array([np.linalg.norm(mesh.vertices_m[:, :2], axis=1).max() for mesh in meshes])
 
 
-def frustum(camera: Camera, pose: Pose) -> Floats:
+def frustum(camera: RenderCamera, pose: Pose) -> Floats:
     """Return the four sides of a view as planes (4, 4): n·x + d is the depth inside, in metres.
 
     Where a lens bends the frame's sides, each plane stands where its side comes farthest in.

@@ -4,12 +4,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import exp1
 
-from synth.errors import InputError
+from synth.errors import SpecError
 from synth.spec.population import PopulationSpec
 
 Floats = NDArray[np.float64]
 
-MOST_ROCKS = 999  # in one scene, as object ids allow
+MAX_ROCKS = 999  # in one scene, as object ids allow
 _TABLE = 4000  # diameters at which the counts are tabulated
 
 
@@ -48,10 +48,10 @@ def draw_diameters_m(spec: PopulationSpec, *, rng: np.random.Generator) -> Float
         InputError: more rocks are expected than a scene can hold, or none came.
     """
     mean = expected_count(spec)
-    count = int(rng.poisson(mean)) if mean <= MOST_ROCKS else MOST_ROCKS + 1
-    if not 0 < count <= MOST_ROCKS:
-        raise InputError(
-            f"population.d_min_m: expected 1 to {MOST_ROCKS} rocks on a disc of "
+    count = int(rng.poisson(mean)) if mean <= MAX_ROCKS else MAX_ROCKS + 1
+    if not 0 < count <= MAX_ROCKS:
+        raise SpecError(
+            f"population.d_min_m: expected 1 to {MAX_ROCKS} rocks on a disc of "
             f"{spec.radius_m:g} m, found {mean:.3g} on average"
         )
     table_m = np.geomspace(spec.d_max_m, spec.d_min_m, _TABLE)  # rising number

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 import msgspec
 import numpy as np
 
-from synth.camera.camera import Camera, Pose
+from synth.camera.camera import Pose, RenderCamera
 from synth.camera.trajectories import camera_distance_m, camera_of, stations
 from synth.geometry.mesh import Floats, Mesh
-from synth.rocks import Rock, quarry
-from synth.scene.ground import Ground, make_ground
-from synth.scene.placement import Yard, frustum, refuse_crowd, scatter, strew
+from synth.rocks import RockModel, quarry
+from synth.scene.ground import Terrain, make_ground
+from synth.scene.placement import PlacementArea, frustum, refuse_crowd, scatter, strew
 from synth.scene.population import draw_diameters_m
 from synth.scene.settling import buried_fraction, settle, shortest_turn
 from synth.spec import SceneSpec
@@ -26,7 +26,7 @@ _FOOT = 0.15  # vertices in this lowest share of a rock's height are its foot
 class PlacedRock:
     """A rock and where it lies."""
 
-    rock: Rock
+    rock: RockModel
     model_to_world: Floats  # (3, 3) rotation
     position_m: Floats  # (3,), the centroid in the world
     albedo: float
@@ -38,7 +38,7 @@ class PlacedRock:
 class _Standing:
     """A rock that has settled, on the vertical through the origin."""
 
-    rock: Rock
+    rock: RockModel
     turn: Floats  # (3, 3), model to world
     height_m: float  # of the centroid
     mesh: Mesh
@@ -49,9 +49,9 @@ class Scene:
     """Rocks on the ground, the camera and its stations."""
 
     rocks: tuple[PlacedRock, ...]
-    camera: Camera
+    camera: RenderCamera
     poses: tuple[Pose, ...]
-    ground: Ground
+    ground: Terrain
 
 
 def build_scene(spec: SceneSpec, index: int) -> Scene:
@@ -68,7 +68,7 @@ def build_scene(spec: SceneSpec, index: int) -> Scene:
     reach_m = camera_distance_m(spec.camera) if counted else spec.population.radius_m
     ground = make_ground(spec.ground, radius_m=reach_m, rng=_child(spec, index, _GROUND))
     lying = _child(spec, index, _LYING)
-    yard = Yard(
+    yard = PlacementArea(
         reach_m=reach_m,
         spacing=spec.rocks.spacing,
         frustums=[frustum(camera, pose) for pose in poses],
@@ -97,7 +97,7 @@ def _child(spec: SceneSpec, index: int, key: int) -> np.random.Generator:
     return np.random.default_rng([spec.seed, index, key])
 
 
-def _population(spec: SceneSpec, index: int) -> list[Rock]:
+def _population(spec: SceneSpec, index: int) -> list[RockModel]:
     """Return a population's rocks, largest first; D is the mean of length and width, a + b."""
     rng = _child(spec, index, _POPULATION)
     rocks = []
@@ -120,14 +120,14 @@ def _feet_m(poses: Sequence[Pose]) -> Floats:
     return np.array([[*pose.position_m()[:2], _ROOM_M] for pose in poses])
 
 
-def _onto(ground: Ground) -> Floats:
+def _onto(ground: Terrain) -> Floats:
     """Return the rotation that lays what stands upright onto the slope."""
     return shortest_turn(np.array([0.0, 0.0, 1.0]), ground.normal())
 
 
 def _stood(
-    rock: Rock,
-    ground: Ground,
+    rock: RockModel,
+    ground: Terrain,
     *,
     rng: np.random.Generator,
     falling: np.random.Generator | None,
@@ -140,7 +140,9 @@ def _stood(
     return _Standing(rock=rock, turn=turn, height_m=height_m, mesh=mesh)
 
 
-def _refuse_crowd(spec: SceneSpec, yard: Yard, ground: Ground, *, rng: np.random.Generator) -> None:
+def _refuse_crowd(
+    spec: SceneSpec, yard: PlacementArea, ground: Terrain, *, rng: np.random.Generator
+) -> None:
     """Raise InputError if by far not all rocks fit: a few are made and laid over and over.
 
     With the scene's own seed they are of the scene's own forms.
@@ -153,7 +155,7 @@ def _refuse_crowd(spec: SceneSpec, yard: Yard, ground: Ground, *, rng: np.random
 def _lay(
     standing: _Standing,
     place_m: Floats,
-    ground: Ground,
+    ground: Terrain,
     *,
     burial: float,
     albedo: float,

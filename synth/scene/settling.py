@@ -5,14 +5,14 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
 from synth.geometry.mesh import Floats, Mesh
-from synth.rocks import Rock
+from synth.rocks import RockModel
 
 _ONE_PLANE = 1e-6  # hull facets whose normals differ less are one side
 
 
 def settle(
-    rock: Rock, *, yaw_rad: float, rng: np.random.Generator | None = None
-) -> tuple[Rock, Floats, float]:
+    rock: RockModel, *, yaw_rad: float, rng: np.random.Generator | None = None
+) -> tuple[RockModel, Floats, float]:
     """Return a rock, the rotation in which it lies stably, and its centroid's height.
 
     The side of the convex hull nearest to the centroid goes down: the lowest place the centroid

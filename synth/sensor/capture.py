@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.camera.camera import Camera, Pose, right_eye
+from synth.camera.camera import Pose, RenderCamera, right_eye
 from synth.light import Stage
 from synth.render.interface import Renderer
-from synth.render.view import View, render_light
+from synth.render.view import RenderedView, render_light
 from synth.sensor.exposure import Picture, eight_bits, take_picture
 from synth.sensor.rectify import Bytes, Rectification, rectification_of
 from synth.sensor.rig import rig_of
@@ -31,13 +31,13 @@ class Capture:
 
 
 def capture_view(
-    view: View,
+    view: RenderedView,
     pose: Pose,
     *,
     spec: SceneSpec,
     scene: int,
     number: int,
-    camera: Camera,
+    camera: RenderCamera,
     stage: Stage,
     renderer: Renderer,
 ) -> Capture:

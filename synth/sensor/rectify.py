@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synth.camera.camera import (
-    Camera,
     Floats,
     Reals,
+    RenderCamera,
     border_rays,
     distorted,
     pixel_rays,
@@ -32,7 +32,7 @@ class Rectification:
     and its columns differ by the disparity f B/Z.
     """
 
-    def __init__(self, camera: Camera) -> None:
+    def __init__(self, camera: RenderCamera) -> None:
         self.camera = camera
         across, down = np.concatenate(border_rays(camera)).T
         column, row = camera.cx + camera.fx * across, camera.cy + camera.fy * down
@@ -87,13 +87,13 @@ class Rectification:
 
 
 @lru_cache(maxsize=1)
-def rectification_of(camera: Camera) -> Rectification:
+def rectification_of(camera: RenderCamera) -> Rectification:
     """Return a camera's rectification; the last one is kept, since all views have one camera."""
     return Rectification(camera)
 
 
 def _places(
-    camera: Camera, across: Reals, down: Reals
+    camera: RenderCamera, across: Reals, down: Reals
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """Return columns and rows of rays that the lens has bent already, as cv2.remap takes them."""
     across, down = np.broadcast_arrays(across, down)

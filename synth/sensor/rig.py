@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synth.camera.camera import PRESETS
-from synth.errors import InputError
+from synth.errors import SpecError
 
 Floats = NDArray[np.float64]
 
@@ -40,5 +40,5 @@ def rig_of(preset: str) -> Rig:
     """
     found = PRESETS[preset]
     if found.baseline_m is None:
-        raise InputError(f"noise.kind: expected a preset with two eyes, found {preset!r}")
+        raise SpecError(f"noise.kind: expected a preset with two eyes, found {preset!r}")
     return Rig(focal_px=found.camera.fx, baseline_m=found.baseline_m)

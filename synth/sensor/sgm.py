@@ -15,7 +15,7 @@ _AGREE_PX = 1  # left to right and right to left may differ by this much
 _UNIQUE_PERCENT = 5  # by which the best match must beat the second
 _SPECKLE_PX, _SPECKLE_STEP_PX = 60, 2  # islands smaller than this, cut off by such a step, go
 _COST_BYTES = 4  # of memory for each pixel and disparity
-_MOST_BYTES = 10**9
+_MAX_BYTES = 10**9
 _OVERLAP_ROWS = 48  # bands of rows are matched with this much of their neighbours
 
 
@@ -64,7 +64,7 @@ def matched_disparity_px(
         speckleRange=_SPECKLE_STEP_PX,
         mode=cv2.StereoSGBM_MODE_HH,
     )
-    band = max(_OVERLAP_ROWS, _MOST_BYTES // (_COST_BYTES * (cols + wide) * count))
+    band = max(_OVERLAP_ROWS, _MAX_BYTES // (_COST_BYTES * (cols + wide) * count))
     steps = np.empty((rows, cols), dtype=np.int16)
     for start in range(0, rows, band):
         top, bottom = max(0, start - _OVERLAP_ROWS), min(rows, start + band + _OVERLAP_ROWS)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.errors import InputError
+from synth.errors import SpecError
 from synth.shapes.outline import RoundedPolygon, largest_disc_px, rectangle
 
 Floats = NDArray[np.float64]
@@ -20,7 +20,7 @@ _CORNER_ROUNDNESS = 0.6  # of the series `sphericity`
 _CORNERS = 7
 _STEPS = 400
 _ATTEMPTS = 100  # polygons drawn before the values count as impossible
-_MOST_SHAPES = 100
+_MAX_SHAPES = 100
 _TOLERANCE = 1e-9
 _CLASSES = np.arange(1, 10) / 10.0  # of roundness, the chart's rows
 _CHART_SIDES = np.linspace(0.30, 0.94, 9)  # short over long side, the chart's columns
@@ -63,24 +63,24 @@ def shape_series(
     if series == CHART:
         if knobs is not None or count not in (None, _CLASSES.size * _CHART_SIDES.size):
             option = "--count" if knobs is None else "--knobs"
-            raise InputError(f"{option}: expected none beside --series {CHART}: 81 shapes, always")
+            raise SpecError(f"{option}: expected none beside --series {CHART}: 81 shapes, always")
         return chart(rng)
     if series not in SERIES:
-        raise InputError(f"--series: expected one of {', '.join(NAMES)}, found {series!r}")
+        raise SpecError(f"--series: expected one of {', '.join(NAMES)}, found {series!r}")
     found = SERIES[series]
     if knobs is None:
         steps = 4 if count is None else count
-        if not 1 <= steps <= _MOST_SHAPES:
-            raise InputError(f"--count: expected 1 to {_MOST_SHAPES}, found {steps}")
+        if not 1 <= steps <= _MAX_SHAPES:
+            raise SpecError(f"--count: expected 1 to {_MAX_SHAPES}, found {steps}")
         return found.make(np.linspace(*found.ends, steps), rng)
     if count not in (None, len(knobs)):
-        raise InputError(f"--count: expected {len(knobs)} as --knobs has, found {count}")
+        raise SpecError(f"--count: expected {len(knobs)} as --knobs has, found {count}")
     low, high = found.limits
     for value in knobs:
         if not low <= value <= high:
-            raise InputError(f"--knobs: expected {low:g} to {high:g} for {series}, found {value:g}")
+            raise SpecError(f"--knobs: expected {low:g} to {high:g} for {series}, found {value:g}")
     if not len(knobs):
-        raise InputError("--knobs: expected at least one value, found none")
+        raise SpecError("--knobs: expected at least one value, found none")
     return found.make(np.array(knobs, dtype=np.float64), rng)
 
 
@@ -179,7 +179,7 @@ def _settled(
         settled = [shape for shape in shapes if shape is not None]
         if len(settled) == len(shapes):
             return settled
-    raise InputError(f"--knobs: expected values that one polygon can take, found {list(roundness)}")
+    raise SpecError(f"--knobs: expected values that one polygon can take, found {list(roundness)}")
 
 
 def _random_polygon(rng: np.random.Generator) -> Floats:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from skimage.draw import polygon as polygon_pixels
 
 from synth.dataset.files import write_png
-from synth.errors import InputError
+from synth.errors import SpecError
 from synth.shapes.outline import axis_ratio
 from synth.shapes.series import CHART, Shape, shape_series
 from synth.shapes.svg import svg_text
@@ -27,7 +27,7 @@ _SUBPIXELS = 4
 _PAPER, _FILL, _INK = 236, 168, 40  # grey levels
 _PEN_WIDTH_PX = 2.5
 JITTER_RMS_PX = 0.35
-_MOST_JITTER_PX = 5.0
+_MAX_JITTER_PX = 5.0
 _JITTER_WAVELENGTH_PX = 60.0
 _SHIFT_BITS = 8
 
@@ -101,8 +101,8 @@ def write_series(
         InputError: an unknown series, a count, values or a jitter out of range, or a folder
             that is a file or holds other files.
     """
-    if not 0.0 <= jitter_rms_px <= _MOST_JITTER_PX:
-        raise InputError(f"--jitter: expected 0 to {_MOST_JITTER_PX:g} px, found {jitter_rms_px:g}")
+    if not 0.0 <= jitter_rms_px <= _MAX_JITTER_PX:
+        raise SpecError(f"--jitter: expected 0 to {_MAX_JITTER_PX:g} px, found {jitter_rms_px:g}")
     _check_free(out)
     rng = np.random.default_rng([seed])
     shapes = shape_series(series, count=count, knobs=knobs, rng=rng)
@@ -121,16 +121,16 @@ def write_series(
             for file in _FILES:
                 (draft / file).replace(out / file)
     except OSError as error:
-        raise InputError(f"{out}: expected a folder to write to, found {error.strerror}") from error
+        raise SpecError(f"{out}: expected a folder to write to, found {error.strerror}") from error
 
 
 def _check_free(out: Path) -> None:
     """Raise InputError unless a folder is new, empty or holds an earlier drawing and no more."""
     if out.exists() and not out.is_dir():
-        raise InputError(f"{out}: expected a folder to write to, found a file")
+        raise SpecError(f"{out}: expected a folder to write to, found a file")
     held = {path.name for path in out.iterdir()} if out.is_dir() else set()
     if held and held != set(_FILES):
-        raise InputError(f"{out}: expected an empty folder or a drawing, found other files")
+        raise SpecError(f"{out}: expected an empty folder or a drawing, found other files")
 
 
 def _table_text(series: str, rows: Sequence[dict[str, float]]) -> str:

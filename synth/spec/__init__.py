@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 import msgspec
 from msgspec import Meta, Struct
 
-from synth.errors import InputError
+from synth.errors import SpecError
 from synth.spec.complaint import complaint
 from synth.spec.ground import GroundSpec
 from synth.spec.population import PopulationSpec
@@ -17,7 +17,7 @@ from synth.spec.surface import SurfaceSpec
 from synth.spec.view import CameraSpec, SunSpec, ViewsSpec
 
 RendererName = Literal["auto", "osmesa", "egl", "embree"]
-MOST_SCENES = 9999
+MAX_SCENES = 9999
 Seed = Annotated[int, Meta(ge=0, le=2**63 - 1)]
 
 
@@ -25,7 +25,7 @@ class SceneSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """A whole dataset. Scene i is a function of the spec and i alone."""
 
     seed: Seed = 0
-    scenes: Annotated[int, Meta(ge=1, le=MOST_SCENES)] = 1
+    scenes: Annotated[int, Meta(ge=1, le=MAX_SCENES)] = 1
     renderer: RendererName = "auto"
     rocks: RocksSpec = RocksSpec()
     population: PopulationSpec = PopulationSpec()
@@ -54,11 +54,11 @@ def load_spec(path: Path) -> SceneSpec:
     try:
         table = tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
-        raise InputError(f"{path}: expected a TOML file, found {error.strerror}") from error
+        raise SpecError(f"{path}: expected a TOML file, found {error.strerror}") from error
     except UnicodeDecodeError as error:
-        raise InputError(f"{path}: expected a TOML file, found bytes that are no text") from error
+        raise SpecError(f"{path}: expected a TOML file, found bytes that are no text") from error
     except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{path}: expected TOML, found {error}") from error
+        raise SpecError(f"{path}: expected TOML, found {error}") from error
     return convert_spec(table, where=str(path))
 
 
@@ -71,4 +71,4 @@ def convert_spec(table: object, *, where: str) -> SceneSpec:
     try:
         return msgspec.convert(table, SceneSpec)
     except msgspec.ValidationError as error:
-        raise InputError(f"{where}: {complaint(str(error), table, SceneSpec)}") from error
+        raise SpecError(f"{where}: {complaint(str(error), table, SceneSpec)}") from error

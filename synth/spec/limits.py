@@ -12,8 +12,8 @@ PositiveRange = tuple[Positive, Positive]
 RatioRange = tuple[Ratio, Ratio]
 AxisRatio = Annotated[float, Meta(ge=0.01, le=1)]  # thinner bodies have no volume in float32
 AxisRatioRange = tuple[AxisRatio, AxisRatio]
-MOST = 500  # rocks in a scene, views of it
-Count = Annotated[int, Meta(ge=1, le=MOST)]
+MAX_COUNT = 500  # rocks in a scene, views of it
+Count = Annotated[int, Meta(ge=1, le=MAX_COUNT)]
 
 
 def check_range(name: str, limits: tuple[float, float]) -> None:

@@ -8,7 +8,7 @@ from rockshape.camera.camera import Camera
 from rockshape.ellipsoid import Ellipsoid
 from rockshape.ground.pixel_noise import RangeNoise
 from rockshape.measures.angularity_3d import angularity_3d
-from rockshape.surface import Relief, measure_relief
+from rockshape.surface import ResidualCurvature, measure_relief
 from tests import solids
 
 BODY = Ellipsoid(
@@ -125,7 +125,7 @@ def test_noise_is_taken_off(rng: np.random.Generator) -> None:
 
 
 def test_what_noise_or_pixels_hide_is_not_told() -> None:
-    assert np.isnan(angularity_3d(Relief(bend=2.0, noise_bend=1.1, facing=5000)))
-    assert np.isnan(angularity_3d(Relief(bend=2.0, noise_bend=0.1, facing=100)))
-    assert angularity_3d(Relief(bend=0.5, noise_bend=0.6, facing=5000)) == 0
+    assert np.isnan(angularity_3d(ResidualCurvature(bend=2.0, noise_bend=1.1, facing=5000)))
+    assert np.isnan(angularity_3d(ResidualCurvature(bend=2.0, noise_bend=0.1, facing=100)))
+    assert angularity_3d(ResidualCurvature(bend=0.5, noise_bend=0.6, facing=5000)) == 0
     assert measure_relief(BODY, known(seen(BODY))[:100]) is None

@@ -5,7 +5,15 @@ from scipy.spatial.transform import Rotation
 
 from rockshape.ellipsoid import Ellipsoid
 from rockshape.measures.angularity_3d import angularity_3d_per_m
-from rockshape.surface import NET, Knots, Net, Patch, body_bends_per_m, fit_surface, view_patch
+from rockshape.surface import (
+    NET,
+    Knots,
+    Net,
+    SurfacePatch,
+    body_bends_per_m,
+    fit_surface,
+    view_patch,
+)
 from tests import solids
 
 
@@ -16,7 +24,7 @@ def grid(count: int = 60, *, width: float = 0.4, height: float = 0.3) -> tuple[n
 
 def test_a_cubic_is_reproduced_with_its_second_derivatives() -> None:
     u, w = grid()
-    patch = Patch(u_m=u, w_m=w, height_m=2 * u**3 - 3 * u * u * w + w**3 + 5 * u - 1)
+    patch = SurfacePatch(u_m=u, w_m=w, height_m=2 * u**3 - 3 * u * u * w + w**3 + 5 * u - 1)
     surface = fit_surface(patch)
     assert surface is not None
     # the penalty of 1e-6 is felt in the sixth digit, curvature loses two more
@@ -28,7 +36,7 @@ def test_a_cubic_is_reproduced_with_its_second_derivatives() -> None:
 def test_agrees_with_scipy_on_a_full_grid(rng: np.random.Generator) -> None:
     u, w = grid()
     height = 0.05 * np.sin(9 * u) * np.cos(7 * w) + rng.normal(scale=1e-3, size=u.shape)
-    surface = fit_surface(Patch(u_m=u, w_m=w, height_m=height))
+    surface = fit_surface(SurfacePatch(u_m=u, w_m=w, height_m=height))
     inner = np.linspace(0, 1, NET.u.spans + 1)[1:-1]
     scipy = LSQBivariateSpline(u, w, height, 0.4 * inner, 0.3 * inner)
     assert surface is not None
@@ -45,7 +53,7 @@ def test_a_spherical_cap_scores_as_it_must(share: float) -> None:
     u, w = np.meshgrid(np.linspace(-rim, rim, 301), np.linspace(-rim, rim, 301))
     inside = np.hypot(u, w) <= rim
     u, w = u[inside], w[inside]
-    surface = fit_surface(Patch(u_m=u, w_m=w, height_m=np.sqrt(radius**2 - u**2 - w**2)))
+    surface = fit_surface(SurfacePatch(u_m=u, w_m=w, height_m=np.sqrt(radius**2 - u**2 - w**2)))
     assert surface is not None
     expected = 1 / np.sqrt(radius**2 - rim**2)
     # the net of 10 x 10 follows the cap to a few thousandths at its rim
@@ -56,7 +64,7 @@ def test_a_spherical_cap_scores_as_it_must(share: float) -> None:
 def test_signed_bumps_cancel_and_absolute_ones_do_not() -> None:
     u, w = grid(width=0.3)
     bumps = 0.01 * np.cos(2 * np.pi * u / 0.15) * np.cos(2 * np.pi * w / 0.15)
-    surface = fit_surface(Patch(u_m=u, w_m=w, height_m=bumps))
+    surface = fit_surface(SurfacePatch(u_m=u, w_m=w, height_m=bumps))
     assert surface is not None
     absolute = angularity_3d_per_m(surface)
     # k² A (2/pi)² for a product of cosines of wave number k
@@ -75,8 +83,8 @@ def test_a_plane_has_no_angularity_however_it_is_turned() -> None:
 def test_half_the_size_is_twice_the_angularity() -> None:
     u, w = grid()
     height = 0.05 * np.sin(9 * u) * np.cos(7 * w)
-    large = fit_surface(Patch(u_m=u, w_m=w, height_m=height))
-    small = fit_surface(Patch(u_m=u / 2, w_m=w / 2, height_m=height / 2))
+    large = fit_surface(SurfacePatch(u_m=u, w_m=w, height_m=height))
+    small = fit_surface(SurfacePatch(u_m=u / 2, w_m=w / 2, height_m=height / 2))
     assert large is not None
     assert small is not None
     assert angularity_3d_per_m(small) == pytest.approx(2 * angularity_3d_per_m(large), rel=1e-9)
@@ -86,7 +94,7 @@ def test_cells_without_data_do_not_disturb_the_rest() -> None:
     u, w = grid(80, width=0.4, height=0.4)
     round_mask = np.hypot(u - 0.2, w - 0.2) < 0.2
     u, w = u[round_mask], w[round_mask]
-    surface = fit_surface(Patch(u_m=u, w_m=w, height_m=0.1 * u * u + 0.2 * w * w))
+    surface = fit_surface(SurfacePatch(u_m=u, w_m=w, height_m=0.1 * u * u + 0.2 * w * w))
     assert surface is not None
     # the penalty pulls where a cell holds a sliver of the disc: 1 % at most
     assert surface.second_uu_per_m == pytest.approx(0.2, abs=0.004)
@@ -95,9 +103,9 @@ def test_cells_without_data_do_not_disturb_the_rest() -> None:
 
 def test_no_surface_where_none_is_determined() -> None:
     u, w = grid(9)
-    assert fit_surface(Patch(u_m=u, w_m=w, height_m=u)) is None
+    assert fit_surface(SurfacePatch(u_m=u, w_m=w, height_m=u)) is None
     u, w = grid()
-    assert fit_surface(Patch(u_m=u, w_m=0 * w, height_m=u)) is None
+    assert fit_surface(SurfacePatch(u_m=u, w_m=0 * w, height_m=u)) is None
 
 
 @pytest.mark.parametrize("order", [3, 4, 5])
@@ -108,7 +116,7 @@ def test_equation_15_to_the_letter_is_dense_least_squares(
     net = Net(Knots(along_u, order), Knots(along_w, order))
     u, w = grid(40)
     height = 0.05 * np.sin(9 * u) * np.cos(7 * w) + rng.normal(scale=1e-3, size=u.shape)
-    surface = fit_surface(Patch(u_m=u, w_m=w, height_m=height), net=net, smoothing=0)
+    surface = fit_surface(SurfacePatch(u_m=u, w_m=w, height_m=height), net=net, smoothing=0)
     assert surface is not None
     tables = [
         BSpline.design_matrix(place / place.max(), knots.values(), order - 1).toarray()
@@ -125,7 +133,7 @@ def test_equation_15_to_the_letter_is_undetermined_on_a_mask() -> None:
     round_mask = np.hypot(u - 0.2, w - 0.2) < 0.18
     corner = (u < 0.02) & (w < 0.02)
     chosen = round_mask | corner
-    patch = Patch(u_m=u[chosen], w_m=w[chosen], height_m=u[chosen] ** 2)
+    patch = SurfacePatch(u_m=u[chosen], w_m=w[chosen], height_m=u[chosen] ** 2)
     net = Net(Knots(20), Knots(20))
     assert fit_surface(patch, net=net, smoothing=0) is None
     assert fit_surface(patch, net=net, smoothing=0.001) is not None
@@ -134,7 +142,7 @@ def test_equation_15_to_the_letter_is_undetermined_on_a_mask() -> None:
 def test_scipy_has_the_same_surface_where_asked(rng: np.random.Generator) -> None:
     u, w = grid()
     height = 0.05 * np.sin(9 * u) * np.cos(7 * w) + rng.normal(scale=1e-3, size=u.shape)
-    surface = fit_surface(Patch(u_m=u, w_m=w, height_m=height), smoothing=0)
+    surface = fit_surface(SurfacePatch(u_m=u, w_m=w, height_m=height), smoothing=0)
     inner = np.linspace(0, 1, NET.u.spans + 1)[1:-1]
     scipy = LSQBivariateSpline(u, w, height, 0.4 * inner, 0.3 * inner)
     assert surface is not None
@@ -147,7 +155,7 @@ def test_scipy_has_the_same_surface_where_asked(rng: np.random.Generator) -> Non
 
 def test_a_plane_costs_nothing_however_stiff() -> None:
     u, w = grid(20)
-    surface = fit_surface(Patch(u_m=u, w_m=w, height_m=3 * u - 2 * w + 1), smoothing=1.0)
+    surface = fit_surface(SurfacePatch(u_m=u, w_m=w, height_m=3 * u - 2 * w + 1), smoothing=1.0)
     assert surface is not None
     # the penalty weighs (1 m/0.3 m)^4 times the data's share of a wave, and rounding with it
     assert surface.residual_m < 1e-8
@@ -160,7 +168,7 @@ def test_smoothing_flattens_waves_by_their_length() -> None:
     net = Net(Knots(40), Knots(12))
     length = 0.8 / k
     surface = fit_surface(
-        Patch(u_m=u, w_m=w, height_m=0.01 * np.sin(k * u)), net=net, smoothing=length
+        SurfacePatch(u_m=u, w_m=w, height_m=0.01 * np.sin(k * u)), net=net, smoothing=length
     )
     assert surface is not None
     place = np.linspace(0.2, 0.4, 101)
@@ -176,7 +184,7 @@ def test_gcv_finds_the_smoothing_that_is_best_against_the_truth(
     inside = np.hypot(u - 0.2, w - 0.2) < 0.2
     u, w = u[inside], w[inside]
     truth = 0.02 * np.sin(15 * u) * np.cos(13 * w)
-    patch = Patch(u_m=u, w_m=w, height_m=truth + rng.normal(scale=0.003, size=u.shape))
+    patch = SurfacePatch(u_m=u, w_m=w, height_m=truth + rng.normal(scale=0.003, size=u.shape))
     net = Net(Knots(16), Knots(16))
 
     def error(smoothing: float | str) -> float:
@@ -193,7 +201,7 @@ def test_gcv_finds_the_smoothing_that_is_best_against_the_truth(
 def test_gcv_is_least_where_the_dense_formula_is(rng: np.random.Generator) -> None:
     u, w = rng.uniform(0, 0.4, (2, 500))
     height = 0.02 * np.sin(15 * u) * np.cos(13 * w) + rng.normal(scale=0.003, size=500)
-    patch = Patch(u_m=u, w_m=w, height_m=height)
+    patch = SurfacePatch(u_m=u, w_m=w, height_m=height)
     surface = fit_surface(patch, smoothing="gcv")
     assert surface is not None
 
@@ -201,7 +209,7 @@ def test_gcv_is_least_where_the_dense_formula_is(rng: np.random.Generator) -> No
         # the surface is linear in the data: column k of H is its answer to the k-th datum alone
         columns = []
         for datum in np.eye(500):
-            alone = fit_surface(Patch(u_m=u, w_m=w, height_m=datum), smoothing=length)
+            alone = fit_surface(SurfacePatch(u_m=u, w_m=w, height_m=datum), smoothing=length)
             assert alone is not None
             columns.append(alone.derivative(u, w))
         hat = np.array(columns).T
@@ -218,10 +226,11 @@ def test_weights_count_data_twice(rng: np.random.Generator) -> None:
     height = rng.normal(size=600)
     twice = rng.random(600) < 0.3
     weighted = fit_surface(
-        Patch(u_m=u, w_m=w, height_m=height), smoothing=0.02, weights=1.0 + twice
+        SurfacePatch(u_m=u, w_m=w, height_m=height), smoothing=0.02, weights=1.0 + twice
     )
     doubled = fit_surface(
-        Patch(*(np.concatenate([part, part[twice]]) for part in (u, w, height))), smoothing=0.02
+        SurfacePatch(*(np.concatenate([part, part[twice]]) for part in (u, w, height))),
+        smoothing=0.02,
     )
     assert weighted is not None
     assert doubled is not None
@@ -232,8 +241,8 @@ def test_order_of_the_points_changes_nothing(rng: np.random.Generator) -> None:
     u, w = rng.uniform(0, 0.3, (2, 600))
     height = rng.normal(size=600)
     order = rng.permutation(600)
-    first = fit_surface(Patch(u_m=u, w_m=w, height_m=height))
-    second = fit_surface(Patch(u_m=u[order], w_m=w[order], height_m=height[order]))
+    first = fit_surface(SurfacePatch(u_m=u, w_m=w, height_m=height))
+    second = fit_surface(SurfacePatch(u_m=u[order], w_m=w[order], height_m=height[order]))
     assert first is not None
     assert second is not None
     # sums in another order

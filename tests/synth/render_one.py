@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from synth.camera.camera import Camera
+from synth.camera.camera import RenderCamera
 from synth.camera.trajectories import ring
 from synth.geometry.mesh import Mesh
 from synth.light import Stage, light_scene
@@ -30,7 +30,7 @@ def ball_scene() -> Scene:
     placed = PlacedRock(
         rock=rock, model_to_world=np.eye(3), position_m=BALL_CENTRE_M, albedo=0.5, mesh=mesh
     )
-    camera = Camera(fx=400.0, fy=410.0, cx=140.3, cy=128.6, width=300, height=240)
+    camera = RenderCamera(fx=400.0, fy=410.0, cx=140.3, cy=128.6, width=300, height=240)
     pose = ring(count=1, distance_m=4.0, elevation_rad=0.6, start_rad=0.3)
     ground = make_ground(GroundSpec(), radius_m=4.0, rng=np.random.default_rng(0))
     return Scene(rocks=(placed,), camera=camera, poses=tuple(pose), ground=ground)

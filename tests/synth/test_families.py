@@ -5,7 +5,7 @@ import pytest
 import trimesh
 from scipy.special import gamma
 
-from synth.errors import InputError
+from synth.errors import SpecError
 from synth.geometry.inscribed_ball import _by_solver, largest_ball
 from synth.rocks import quarry
 from synth.rocks.ellipsoid import ellipsoid, ellipsoid_area_m2
@@ -118,7 +118,7 @@ def test_harmonics_at_one_point_are_the_same_in_any_company():
 
 
 def test_relief_that_folds_is_refused():
-    with pytest.raises(InputError, match=r"rocks\.relief_rms: expected relief that folds"):
+    with pytest.raises(SpecError, match=r"rocks\.relief_rms: expected relief that folds"):
         with_relief(
             ellipsoid(HALF_AXES_M), relief_rms=0.9, degrees=(3, 14), rng=np.random.default_rng(0)
         )
@@ -150,7 +150,7 @@ def test_files_that_are_no_scans_are_named(tmp_path):
     open_sheet = tmp_path / "sheet.stl"
     trimesh.Trimesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]).export(open_sheet)
     for path in (broken, open_sheet, tmp_path / "absent.ply", tmp_path / "rock.xyz"):
-        with pytest.raises(InputError, match=path.name) as caught:
+        with pytest.raises(SpecError, match=path.name) as caught:
             scan(str(path), diameter_m=0.3)
         assert "\n" not in str(caught.value)
 
@@ -166,5 +166,5 @@ def test_files_that_are_no_scans_are_named(tmp_path):
     ],
 )
 def test_bad_keys_are_named(rocks, key):
-    with pytest.raises(InputError, match=key):
+    with pytest.raises(SpecError, match=key):
         convert_spec({"rocks": rocks}, where="test")

@@ -10,7 +10,7 @@ import pytest
 from synth.camera.camera import PRESETS
 from synth.dataset.generate import generate_dataset
 from synth.dataset.write import PARTIAL, depth_scale_mm, encode_depth, scene_name
-from synth.errors import InputError
+from synth.errors import SpecError
 from synth.scene.scene import build_scene
 from synth.spec import SceneSpec
 from synth.spec.rocks import RocksSpec
@@ -88,7 +88,7 @@ def test_a_run_that_fails_at_once_leaves_nothing(tmp_path):
     )
     (tmp_path / "empty").mkdir()
     for name in ("new", "empty"):
-        with pytest.raises(InputError, match="full"):
+        with pytest.raises(SpecError, match="full"):
             generate_dataset(tight, tmp_path / name, jobs=2)
     assert not (tmp_path / "new").exists()
     assert not any((tmp_path / "empty").iterdir())
@@ -106,19 +106,19 @@ def test_odd_folders_are_refused(tmp_path):
         ("odd", "found other files"),
         ("bare", "found one with None"),
     ):
-        with pytest.raises(InputError, match=words):
+        with pytest.raises(SpecError, match=words):
             generate_dataset(SPEC, tmp_path / name)
     assert not (tmp_path / "absent").exists()
 
 
 def test_another_spec_or_other_files_are_refused(dataset, tmp_path):
     other = SceneSpec(seed=7)
-    with pytest.raises(InputError, match=r"with spec\.seed 7, found one with "):
+    with pytest.raises(SpecError, match=r"with spec\.seed 7, found one with "):
         generate_dataset(other, dataset)
     (tmp_path / "note.txt").write_text("mine")
-    with pytest.raises(InputError, match="found other files"):
+    with pytest.raises(SpecError, match="found other files"):
         generate_dataset(SPEC, tmp_path)
-    with pytest.raises(InputError, match="found a file"):
+    with pytest.raises(SpecError, match="found a file"):
         generate_dataset(SPEC, tmp_path / "note.txt")
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from synth.camera.camera import (
-    Camera,
+    RenderCamera,
     border_rays,
     check_lens,
     distorted,
@@ -15,7 +15,7 @@ from synth.camera.camera import (
     undistorted,
 )
 from synth.camera.trajectories import camera_of
-from synth.errors import InputError
+from synth.errors import SpecError
 from synth.geometry.mesh import Mesh
 from synth.light import light_scene
 from synth.render import open_renderer, render_view
@@ -30,7 +30,7 @@ from synth.spec.view import CameraSpec, SunSpec
 
 BARREL = (-0.25, 0.06, 1e-3, -2e-3, 0.0)
 PINCUSHION = (0.4, 0.0, 0.0, 1e-3, 0.0)
-CAMERA = Camera(260.0, 250.0, 159.5, 119.5, 320, 240)
+CAMERA = RenderCamera(260.0, 250.0, 159.5, 119.5, 320, 240)
 # A board at x = 0.3 that faces the camera, leaning: y, z of its corners.
 BOARD = np.array([[-0.9, 0.3], [0.8, 0.2], [0.9, 1.3], [-0.7, 1.4]])
 
@@ -46,7 +46,7 @@ def test_the_inverse_undoes_the_lens(lens):
 
 def test_a_lens_that_folds_the_image_is_refused():
     # x (1 − r²) turns back at r = 0.58; the navcam's corner is at 0.59.
-    with pytest.raises(InputError, match=r"camera\.distortion: .*-1\.0, 0\.0.*folds"):
+    with pytest.raises(SpecError, match=r"camera\.distortion: .*-1\.0, 0\.0.*folds"):
         camera_of(CameraSpec(distortion=(-1.0, 0.0, 0.0, 0.0, 0.0)))
     check_lens(replace(CAMERA, distortion=BARREL))
 

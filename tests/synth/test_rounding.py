@@ -6,7 +6,7 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from synth.errors import InputError
+from synth.errors import SpecError
 from synth.geometry.mesh import area_m2, volume_m3
 from synth.rocks.polyhedron import cuboid, from_half_spaces, functionals, inradius_m, tangent_cuts
 from synth.rocks.rounded import rounded_box
@@ -85,5 +85,5 @@ def test_box_and_ball_truth():
 
 def test_open_half_spaces_are_refused():
     normals = np.vstack([np.eye(3), [[0.0, 0.0, -1.0]]])
-    with pytest.raises(InputError, match="bounded"):
+    with pytest.raises(SpecError, match="bounded"):
         from_half_spaces(normals, np.ones(4))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from synth.camera.camera import project
-from synth.errors import InputError
+from synth.errors import SpecError
 from synth.rocks import quarry
 from synth.scene import scene as scene_module
 from synth.scene.scene import build_scene
@@ -49,7 +49,7 @@ def test_model_pose_takes_the_model_to_the_world():
 
 def test_full_ground_is_one_line():
     spec = SceneSpec(rocks=RocksSpec(count=60, family="rounded-box"))
-    with pytest.raises(InputError, match=r"rocks\.count: the ground in view is full") as caught:
+    with pytest.raises(SpecError, match=r"rocks\.count: the ground in view is full") as caught:
         build_scene(spec, 0)
     assert "\n" not in str(caught.value)
 
@@ -63,7 +63,7 @@ def test_a_crowd_is_refused_before_its_rocks_are_made(monkeypatch):
 
     monkeypatch.setattr(scene_module, "quarry", counted)
     spec = SceneSpec(rocks=RocksSpec(count=400, family="rounded-box"))
-    with pytest.raises(InputError, match=r"expected at most \d+ rocks .* found 400"):
+    with pytest.raises(SpecError, match=r"expected at most \d+ rocks .* found 400"):
         build_scene(spec, 0)
     assert max(asked) < 20
 

@@ -6,7 +6,7 @@ from scipy.integrate import quad
 
 from synth.camera.camera import look_at, project
 from synth.camera.trajectories import camera_of, stations
-from synth.errors import InputError
+from synth.errors import SpecError
 from synth.geometry.mesh import volume_m3
 from synth.rocks.ellipsoid import ellipsoid
 from synth.scene.ground import make_ground
@@ -68,7 +68,7 @@ def test_full_ground_tells_how_many_rocks_fit():
                        "layout": "clustered", "cluster_radius_m": 0.2},
         "rocks": {"family": "rounded-box", "series": "random"},
     }  # fmt: skip
-    with pytest.raises(InputError, match=r"population\.k: the ground is full: \d+ rocks fit"):
+    with pytest.raises(SpecError, match=r"population\.k: the ground is full: \d+ rocks fit"):
         build_scene(convert_spec(table, where="test"), 0)
 
 

@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 import pytest
 
-from synth.errors import InputError
+from synth.errors import SpecError
 from synth.shapes import shape_series, write_series
 from synth.shapes.outline import (
     RoundedPolygon,
@@ -168,19 +168,19 @@ def test_files_agree(tmp_path, series):
 
 def test_bad_series_and_count(tmp_path):
     with pytest.raises(
-        InputError, match="expected one of roundness, sphericity, both, krumbein, found 'star'"
+        SpecError, match="expected one of roundness, sphericity, both, krumbein, found 'star'"
     ):
         write_series("star", tmp_path, count=4)
-    with pytest.raises(InputError, match="--count"):
+    with pytest.raises(SpecError, match="--count"):
         write_series("roundness", tmp_path, count=0)
     (tmp_path / "file").write_text("")
-    with pytest.raises(InputError, match="expected a folder"):
+    with pytest.raises(SpecError, match="expected a folder"):
         write_series("roundness", tmp_path / "file")
 
 
 def test_a_folder_of_other_files_is_refused(tmp_path):
     (tmp_path / "truth.csv").write_text("precious")
-    with pytest.raises(InputError, match="found other files"):
+    with pytest.raises(SpecError, match="found other files"):
         write_series("roundness", tmp_path)
     assert (tmp_path / "truth.csv").read_text() == "precious"
     write_series("roundness", tmp_path / "new")

@@ -2,7 +2,7 @@
 
 import pytest
 
-from synth.errors import InputError
+from synth.errors import SpecError
 from synth.spec import SceneSpec, convert_spec, load_spec
 
 
@@ -41,7 +41,7 @@ def test_values_are_read(tmp_path):
 def test_complaints_name_file_and_key(tmp_path, text, key):
     path = tmp_path / "spec.toml"
     path.write_text(text)
-    with pytest.raises(InputError, match=key) as caught:
+    with pytest.raises(SpecError, match=key) as caught:
         load_spec(path)
     assert str(path) in str(caught.value)
     assert "\n" not in str(caught.value)
@@ -65,7 +65,7 @@ def test_complaints_name_file_and_key(tmp_path, text, key):
     ],
 )
 def test_complaints_tell_what_was_expected_and_found(table, words):
-    with pytest.raises(InputError) as caught:
+    with pytest.raises(SpecError) as caught:
         convert_spec(table, where="spec")
     assert str(caught.value).startswith(f"spec: {words}")
 
@@ -77,5 +77,5 @@ def test_files_that_are_no_toml(tmp_path, kind):
         path.mkdir()
     elif kind == "binary":
         path.write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(InputError, match="expected a TOML file"):
+    with pytest.raises(SpecError, match="expected a TOML file"):
         load_spec(path)

@@ -5,14 +5,14 @@ import numpy as np
 import pandas as pd
 
 from validation.execution.units import UnitResult
-from validation.records.join import Place
+from validation.records.join import RecordKey
 from validation.records.pictures import TRUE, Mark, Picture, Portrait
 
 SIDE_PX = 48
 SQUARE = (40, 40, 152, 40, 152, 152, 40, 152)
 
 
-def portrait(place: Place, instance: int) -> Portrait:
+def portrait(place: RecordKey, instance: int) -> Portrait:
     """Return a small grey picture with a true border, an outline and an ellipse."""
     grey = np.full((SIDE_PX, SIDE_PX), 40 + 10 * instance, np.uint8)
     jpeg = cv2.imencode(".jpg", grey)[1].tobytes()
@@ -28,9 +28,13 @@ def units(records: pd.DataFrame, *, pictured: bool = True) -> list[UnitResult]:
     results = []
     for _, own in records.groupby(["experiment", "series", "scene"], sort=False):
         places = [
-            (Place(e, k, s, n, seed, view, "paper"), instance)
+            (RecordKey(e, k, s, n, seed, view, "paper"), instance)
             for e, k, s, n, seed, view, instance in zip(
-                *(own[name].tolist() for name in Place.__dataclass_fields__ if name != "method"),
+                *(
+                    own[name].tolist()
+                    for name in RecordKey.__dataclass_fields__
+                    if name != "method"
+                ),
                 own["instance"].tolist(),
                 strict=True,
             )

@@ -6,29 +6,29 @@ import msgspec
 import pytest
 
 from validation.errors import InputError
-from validation.suite.gates import Found, Gate, check_names, evaluate
+from validation.suite.gates import Gate, ScoreValue, check_names, evaluate
 
-LEAST = Gate(score="a.tau", at_least=0.5, reason="r")
-MOST = Gate(score="a.cv", at_most=0.2, reason="r")
+AT_LEAST = Gate(score="a.tau", at_least=0.5, reason="r")
+AT_MOST = Gate(score="a.cv", at_most=0.2, reason="r")
 
 
 @pytest.mark.parametrize(
     ("gate", "value", "passed"),
     [
-        (LEAST, 0.5, True),
-        (LEAST, 0.499, False),
-        (LEAST, math.nan, False),
-        (MOST, 0.2, True),
-        (MOST, 0.201, False),
-        (MOST, math.nan, False),
+        (AT_LEAST, 0.5, True),
+        (AT_LEAST, 0.499, False),
+        (AT_LEAST, math.nan, False),
+        (AT_MOST, 0.2, True),
+        (AT_MOST, 0.201, False),
+        (AT_MOST, math.nan, False),
     ],
 )
 def test_bounds(gate, value, passed) -> None:
-    (result,) = evaluate([gate], {gate.score: Found(value)})
+    (result,) = evaluate([gate], {gate.score: ScoreValue(value)})
     assert result.passed is passed
 
 
-@pytest.mark.parametrize("gate", [LEAST, MOST])
+@pytest.mark.parametrize("gate", [AT_LEAST, AT_MOST])
 def test_a_missing_score_fails(gate) -> None:
     (result,) = evaluate([gate], {})
     assert result.passed is False
@@ -37,7 +37,7 @@ def test_a_missing_score_fails(gate) -> None:
 
 def test_an_unknown_score_is_named_with_what_is_near() -> None:
     with pytest.raises(InputError) as error:
-        check_names([LEAST], ["a.taub", "b.cv"], where="g.toml")
+        check_names([AT_LEAST], ["a.taub", "b.cv"], where="g.toml")
     assert str(error.value) == "g.toml: gate[0].score: expected one of a.taub, found 'a.tau'"
 
 
@@ -68,14 +68,14 @@ def test_a_gate_needs_a_reason() -> None:
 )
 def test_the_end_that_is_named_must_clear_the_bound(bound, end, passed) -> None:
     gate = Gate(score="a", reason="r", end=end, **bound)
-    (result,) = evaluate([gate], {"a": Found(0.6, 0.4, 0.8)})
+    (result,) = evaluate([gate], {"a": ScoreValue(0.6, 0.4, 0.8)})
     assert result.passed is passed
 
 
 @pytest.mark.parametrize("end", ["low", "high"])
 @pytest.mark.parametrize("bound", [{"at_least": -9.0}, {"at_most": 9.0}])
 def test_an_end_that_does_not_exist_never_passes(bound, end) -> None:
-    (result,) = evaluate([Gate(score="a", reason="r", end=end, **bound)], {"a": Found(0.6)})
+    (result,) = evaluate([Gate(score="a", reason="r", end=end, **bound)], {"a": ScoreValue(0.6)})
     assert result.passed is False
 
 

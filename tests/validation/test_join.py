@@ -11,7 +11,7 @@ from rockshape.measurement import to_frame
 from rockshape.observation import Observation
 from rockshape.pipeline import measure
 from validation.errors import InputError
-from validation.records.join import Place, join
+from validation.records.join import RecordKey, join
 from validation.records.truth import (
     read_instances,
     read_scene_truth,
@@ -20,7 +20,7 @@ from validation.records.truth import (
     view_columns,
 )
 
-PLACE = Place("yard", "yard", "", 0, 10000, 2, "paper")
+PLACE = RecordKey("yard", "yard", "", 0, 10000, 2, "paper")
 
 
 def discs(*centres: tuple[int, int]) -> np.ndarray:

@@ -6,11 +6,11 @@ import pandas as pd
 
 from rockshape.observation import Observation
 from rockshape.pipeline import measure
-from validation.records.join import Place
+from validation.records.join import RecordKey
 from validation.records.pictures import TRUE, UNITS, compress, cut_round, mark
 from validation.records.rock_thumbnails import MARGIN, PORTRAIT_PX, portraits, whole_view
 
-PLACE = Place("yard", "yard", "", 0, 10000, 0, "")
+PLACE = RecordKey("yard", "yard", "", 0, 10000, 0, "")
 
 
 def discs() -> np.ndarray:

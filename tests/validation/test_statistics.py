@@ -131,7 +131,7 @@ def test_p_of_perfect_concordance_is_one_arrangement() -> None:
 
 
 def test_p_of_random_ranks_is_uniform() -> None:
-    # Above MOST_ARRANGEMENTS p comes from random ones. The mean of 40 uniform numbers is 0.5 with
+    # Above MAX_ARRANGEMENTS p comes from random ones. The mean of 40 uniform numbers is 0.5 with
     # a standard error of 0.046; the bounds are four of those.
     rng = np.random.default_rng(4)
     found = [concordance([block(rng.random((3, 7)), np.zeros(7))]).p_value() for _ in range(40)]

@@ -21,8 +21,8 @@ from validation.statistics.interval import LEVEL, REPLICATES
 from validation.suite.suite import Suite
 
 MARGIN = 0.002  # the difference that another renderer makes
-MOST_GROUPS = 20
-FEWEST_GROUPS = 3
+MAX_GROUPS = 20
+MIN_GROUPS = 3
 _ROCK = ["experiment", "series", "scene", "seed", "instance"]
 _TRUTH_TOLERANCE = 1e-6  # relative: truth goes through JSON and CSV, nothing else
 
@@ -217,7 +217,7 @@ def _jackknife(
     found = np.array([after - before for before, after in _left_out(definition, old, new)])
     found = found[np.isfinite(found)]
     groups = found.size
-    if groups < FEWEST_GROUPS:
+    if groups < MIN_GROUPS:
         return math.nan, math.nan
     spread = math.sqrt((groups - 1) / groups * float(((found - found.mean()) ** 2).sum()))
     return spread, float(stats.t.isf(tail, groups - 1))
@@ -230,7 +230,7 @@ def _left_out(
         records[records["experiment"] == definition.key.experiment] for records in (old, new)
     )
     scenes = np.unique(before["scene"].to_numpy(np.int64))
-    for group in np.array_split(scenes, min(MOST_GROUPS, scenes.size)):
+    for group in np.array_split(scenes, min(MAX_GROUPS, scenes.size)):
         yield (
             definition.compute(before[~before["scene"].isin(group)]).value,
             definition.compute(after[~after["scene"].isin(group)]).value,

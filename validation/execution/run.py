@@ -17,7 +17,7 @@ from validation.records.pictures import Album, Picture
 from validation.scores.score import Score
 from validation.selfcheck.checks import Check, self_checks
 from validation.suite.experiments import Experiment, ShapesExperiment
-from validation.suite.gates import Found, Gate, GateResult, evaluate
+from validation.suite.gates import Gate, GateResult, ScoreValue, evaluate
 from validation.suite.suite import Suite
 
 AnyPicture = Picture | StoredPicture
@@ -74,7 +74,7 @@ def assess(suite: Suite, gates: Sequence[Gate], results: Iterable[Result]) -> Ru
         albums[str(experiment), str(series), int(scene)] = result.album
     records = pd.concat(tables, ignore_index=True)
     scores = score_records(suite, records)
-    found = {score.name: Found(score.value, score.low, score.high) for score in scores}
+    found = {score.name: ScoreValue(score.value, score.low, score.high) for score in scores}
     return Run(
         suite=suite,
         records=records,

@@ -22,7 +22,7 @@ import pyarrow.parquet as pq
 from validation.errors import InputError
 from validation.execution.fingerprint import code_digest
 from validation.execution.units import Unit, UnitResult, spec_of
-from validation.records.join import Place
+from validation.records.join import RecordKey
 from validation.records.pictures import Album, Mark, Portrait
 
 FORMAT = "rockshape unit results 1"
@@ -43,7 +43,7 @@ def _held(file: Path | io.BytesIO) -> dict[bytes, bytes]:
 class StoredPicture:
     """A picture that is read when it is shown, so that a run need not hold them all."""
 
-    place: Place
+    place: RecordKey
     width_px: int
     height_px: int
     size_bytes: int
@@ -178,7 +178,9 @@ class UnitStore:
             records=table.to_pandas(),
             pictures=tuple(
                 StoredPicture(
-                    place=Place(**{name: shown[name] for name in Place.__dataclass_fields__}),
+                    place=RecordKey(
+                        **{name: shown[name] for name in RecordKey.__dataclass_fields__}
+                    ),
                     width_px=shown["width_px"],
                     height_px=shown["height_px"],
                     size_bytes=shown["bytes"],

@@ -18,7 +18,7 @@ from synth.dataset.write import write_common, write_scene
 from synth.render import choose_backend
 from synth.shapes import write_series
 from validation.execution.units import DrawingUnit, MeasuredUnit, SceneUnit
-from validation.records.join import Place
+from validation.records.join import RecordKey
 from validation.records.truth import (
     SceneTruth,
     read_instances,
@@ -59,10 +59,10 @@ def _view_truth(
 
 
 @dataclass(frozen=True, eq=False)
-class View:
+class ViewCase:
     """One view with its truth, ready to be measured by every method."""
 
-    place: Place  # with the method yet to be named
+    place: RecordKey  # with the method yet to be named
     observation: Observation
     given: NDArray[np.int32] | None  # labels (rows, cols), or None where rocks are to be found
     instances: NDArray[np.int32]
@@ -70,7 +70,7 @@ class View:
     min_iou: float
 
 
-def _scene_views(unit: SceneUnit, folder: Path) -> tuple[list[View], str]:
+def _scene_views(unit: SceneUnit, folder: Path) -> tuple[list[ViewCase], str]:
     experiment = unit.experiment
     scene_spec = experiment.scene_at(unit.series)
     spec = msgspec.structs.replace(scene_spec, seed=experiment.seed + unit.scene)
@@ -87,8 +87,8 @@ def _scene_views(unit: SceneUnit, folder: Path) -> tuple[list[View], str]:
         points_m = read_range(scene / "depth" / name, shape=image.shape, camera=camera)
         instances = read_instances(scene / "labels" / name)
         views.append(
-            View(
-                place=Place(
+            ViewCase(
+                place=RecordKey(
                     experiment.name, "yard", unit.series, unit.scene, spec.seed, number, ""
                 ),
                 observation=Observation(image=image, points_m=points_m, camera=camera),
@@ -101,13 +101,13 @@ def _scene_views(unit: SceneUnit, folder: Path) -> tuple[list[View], str]:
     return views, backend
 
 
-def _drawing_view(unit: DrawingUnit, folder: Path) -> View:
+def _drawing_view(unit: DrawingUnit, folder: Path) -> ViewCase:
     experiment = unit.experiment
     seed = experiment.seed + unit.scene
     write_series(unit.series, folder, count=experiment.count, seed=seed)
     image = read_image(folder / "image.png")
-    return View(
-        place=Place(experiment.name, "shapes", unit.series, unit.scene, seed, 0, ""),
+    return ViewCase(
+        place=RecordKey(experiment.name, "shapes", unit.series, unit.scene, seed, 0, ""),
         observation=Observation(image=image),
         given=read_labels(folder / "labels.png", shape=image.shape),
         instances=read_instances(folder / "labels.png"),
@@ -123,7 +123,7 @@ def data_folder() -> Iterator[Path]:
         yield Path(parent) / "data"
 
 
-def views_of(unit: MeasuredUnit) -> tuple[list[View], str]:
+def views_of(unit: MeasuredUnit) -> tuple[list[ViewCase], str]:
     """Make a unit's scene or drawing in a temporary folder; return its views and the renderer."""
     with data_folder() as folder:
         if isinstance(unit, SceneUnit):

@@ -15,7 +15,7 @@ from validation.execution.units import (
     is_pictured,
     is_portrayed,
 )
-from validation.execution.views import View, data_folder, views_of
+from validation.execution.views import ViewCase, data_folder, views_of
 from validation.kinds.design.work import run_design
 from validation.kinds.segmentation.work import run_scene
 from validation.peers import Seen, run_measure
@@ -23,7 +23,7 @@ from validation.records.join import join
 from validation.records.rock_thumbnails import portraits, whole_view
 
 
-def _measure_view(view: View, unit: MeasuredUnit) -> UnitResult:
+def _measure_view(view: ViewCase, unit: MeasuredUnit) -> UnitResult:
     """Measure a view by the methods, then by measures from elsewhere on the first one's labels."""
     image = view.observation.image
     found = [

@@ -17,7 +17,7 @@ from validation.suite.experiments import (
     SegmentationExperiment,
     YardExperiment,
 )
-from validation.suite.gates import Found, Gate
+from validation.suite.gates import Gate, ScoreValue
 from validation.suite.suite import Suite
 
 __all__ = [
@@ -64,7 +64,9 @@ def score_values(suite: Suite, records: pd.DataFrame) -> dict[str, float]:
     return {d.name: d.compute(records).value for d in definitions(suite)}
 
 
-def gate_scores(suite: Suite, gates: Sequence[Gate], records: pd.DataFrame) -> dict[str, Found]:
+def gate_scores(
+    suite: Suite, gates: Sequence[Gate], records: pd.DataFrame
+) -> dict[str, ScoreValue]:
     """Return what the gates ask for: values, and the intervals of those that ask for an end."""
     wanted = {gate.score: False for gate in gates}
     for gate in gates:
@@ -73,7 +75,7 @@ def gate_scores(suite: Suite, gates: Sequence[Gate], records: pd.DataFrame) -> d
     for definition in definitions(suite):
         if wanted.get(definition.name):
             score = estimate(definition, records)
-            found[definition.name] = Found(score.value, score.low, score.high)
+            found[definition.name] = ScoreValue(score.value, score.low, score.high)
         elif definition.name in wanted:
-            found[definition.name] = Found(definition.compute(records).value)
+            found[definition.name] = ScoreValue(definition.compute(records).value)
     return found

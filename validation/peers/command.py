@@ -15,7 +15,7 @@ from validation.peers.view_input import Seen
 PLACES = ("{image}", "{labels}", "{range}", "{out}")
 NEEDED = ("{labels}", "{out}")
 LIMIT_S = 600
-MOST_16_BITS = 2**16 - 1
+MAX_UINT16 = 2**16 - 1
 
 
 def check_command(command: str) -> None:
@@ -42,7 +42,7 @@ def run_command(command: str, seen: Seen, *, where: str) -> pd.DataFrame:
     Raises:
         InputError: the command cannot be run, fails, takes too long, or writes no such table.
     """
-    if seen.labels.max(initial=0) > MOST_16_BITS:
+    if seen.labels.max(initial=0) > MAX_UINT16:
         raise InputError(f"{where}: expected labels of 16 bits, found {seen.labels.max()}")
     with TemporaryDirectory(prefix="rockshape-measure-") as folder:
         files = {place: Path(folder) / name for place, name in zip(PLACES, _NAMES, strict=True)}

@@ -10,7 +10,7 @@ from validation.records.match import match_labels
 
 
 @dataclass(frozen=True)
-class Place:
+class RecordKey:
     """Where a row comes from; the first columns of the records."""
 
     experiment: str
@@ -23,7 +23,7 @@ class Place:
 
 
 def join(
-    place: Place,
+    place: RecordKey,
     truth: pd.DataFrame,
     instances: NDArray[np.int32],
     labels: NDArray[np.int32],

@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.ellipse.direct import Ellipse
-from validation.records.join import Place
+from validation.records.join import RecordKey
 
 WIDEST_PX = 720
 JPEG_QUALITY = 78
-LEAST_MARGIN_PX = 6
+MIN_MARGIN_PX = 6
 UNITS = 4  # of a mark's coordinates to a pixel of the picture
 TRUE = "true"  # stands for the method in the mark of a true border
 _TOLERANCE_PX = 0.6  # how far a mark's outline may leave the one it is made from
@@ -39,7 +39,7 @@ class Mark:
 class Picture:
     """A JPEG of one view, and what was found on it."""
 
-    place: Place
+    place: RecordKey
     jpeg: bytes
     width_px: int
     height_px: int
@@ -93,7 +93,7 @@ def cut_round(
     top, bottom, left, right = 0, shown.shape[0], 0, shown.shape[1]
     if rows.size:
         spans = int(rows[-1] - rows[0]) + 1, int(cols[-1] - cols[0]) + 1
-        extra = max(LEAST_MARGIN_PX, round(margin * max(spans)))
+        extra = max(MIN_MARGIN_PX, round(margin * max(spans)))
         down, across = (extra + ((max(spans) - span) // 2 if square else 0) for span in spans)
         top, bottom = max(0, int(rows[0]) - down), min(bottom, int(rows[-1]) + 1 + down)
         left, right = max(0, int(cols[0]) - across), min(right, int(cols[-1]) + 1 + across)

@@ -9,7 +9,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from rockshape.measurement import Measurement
-from validation.records.join import Place
+from validation.records.join import RecordKey
 from validation.records.pictures import (
     TRUE,
     WIDEST_PX,
@@ -30,7 +30,7 @@ def _grey(image: NDArray[np.float32]) -> NDArray[np.uint8]:
     return np.clip(np.rint(image * 255), 0, 255).astype(np.uint8)
 
 
-def whole_view(image: NDArray[np.float32], found: Measurement, place: Place) -> Picture:
+def whole_view(image: NDArray[np.float32], found: Measurement, place: RecordKey) -> Picture:
     """Return the picture of a view, cut to its rocks and marked with all that were found."""
     cut = cut_round(found.labels > 0, margin=0.12, widest_px=WIDEST_PX)
     return Picture(
@@ -50,7 +50,7 @@ def portraits(
     found: Sequence[Measurement],
     instances: NDArray[np.int32],
     records: pd.DataFrame,
-    place: Place,
+    place: RecordKey,
 ) -> tuple[Portrait, ...]:
     """Return a portrait of each true rock in sight, then of each thing taken for one.
 
@@ -86,7 +86,7 @@ class _Painter:
 
     grey: NDArray[np.uint8]
     made: dict[str, Measurement]  # by method
-    place: Place
+    place: RecordKey
 
     def paint(
         self, method: str, true: NDArray[np.bool_], rocks: dict[str, int], instance: int | None

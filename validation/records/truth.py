@@ -25,7 +25,7 @@ class RockTruth(Struct, frozen=True, kw_only=True):
     wadell_sphericity: float | None
 
 
-class RockView(Struct, frozen=True, kw_only=True):
+class RockInView(Struct, frozen=True, kw_only=True):
     """What `scene_gt_shape.json` says of a rock in one view."""
 
     instance: int
@@ -40,7 +40,7 @@ class SceneTruth(Struct, frozen=True, kw_only=True):
     """A scene's rocks, and for each view (by its number) what can be seen of them."""
 
     rocks: tuple[RockTruth, ...]
-    views: dict[str, tuple[RockView, ...]]
+    views: dict[str, tuple[RockInView, ...]]
 
 
 _T = TypeVar("_T")
@@ -96,7 +96,7 @@ def rock_columns(rock: RockTruth) -> dict[str, object]:
     }
 
 
-def view_columns(rock: RockView) -> dict[str, object]:
+def view_columns(rock: RockInView) -> dict[str, object]:
     """Return what one view truly shows of a rock as columns of the results."""
     roundness = np.nan if rock.outline_roundness is None else rock.outline_roundness
     return {

@@ -19,7 +19,7 @@ _TRUTHS = {
 
 
 @dataclass(frozen=True)
-class Place:
+class Rank:
     """One column's place; columns of one τ share a rank, and one without τ has none."""
 
     rank: int | None
@@ -35,7 +35,7 @@ class Board:
 
     experiment: str
     truth: str
-    places: tuple[Place, ...]
+    places: tuple[Rank, ...]
 
 
 def leaderboards(run: Run) -> tuple[Board, ...]:
@@ -55,10 +55,10 @@ def leaderboards(run: Run) -> tuple[Board, ...]:
     )
 
 
-def _ranked(found: list[tuple[Score, float]]) -> tuple[Place, ...]:
+def _ranked(found: list[tuple[Score, float]]) -> tuple[Rank, ...]:
     taus = [tau.value for tau, _ in found]
     places = [
-        Place(
+        Rank(
             rank=None if math.isnan(tau.value) else 1 + sum(other > tau.value for other in taus),
             method=tau.key.method,
             measure=tau.key.measure,

@@ -32,7 +32,7 @@ MAX_BYTES = 5_000_000  # of the page
 SHARES = (1.0, 0.6, 0.3, 0.1, 0.0)  # of the room below, tried one after another until it fits
 _ROCKS_BYTES = 3_000_000  # of rocks one by one
 _POINTS = 6_000  # of all charts
-_LEAST_POINTS = 40  # of a chart
+_MIN_POINTS = 40  # of a chart
 
 
 def _breakable(name: str) -> Markup:
@@ -91,7 +91,7 @@ def _page(run: Run, share: float, *, command: str, seconds: float) -> str:
     points = share * _POINTS / max(1, len(all_claims(run.suite)))
     room = Room(
         chosen=choose(run, share * _ROCKS_BYTES),
-        most_points=max(_LEAST_POINTS, int(points)),
+        most_points=max(_MIN_POINTS, int(points)),
         share=share,
     )
     experiments = run.suite.experiments

@@ -18,7 +18,7 @@ _CHARTED = (  # statistic, heading, the least top of its axis
     ("tau", "Order within a view (τ_b)", 1.0),
     ("cv", "Variation of a rock between views (CV)", 0.25),
 )
-FEWEST = 10  # pairs or rocks, below which a score is not drawn
+MIN_COUNT = 10  # pairs or rocks, below which a score is not drawn
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class SweepSection:
     measured: tuple[tuple[str, tuple[float, ...]], ...]  # method and measure, share with a value
     table: RockTable
     pictures: tuple[ShownPicture, ...]
-    fewest: int = FEWEST
+    fewest: int = MIN_COUNT
 
 
 def _columns(experiment: YardExperiment) -> dict[str, dict[str, str]]:
@@ -51,7 +51,7 @@ def _line(
         scores.get(Key(experiment.name, method, step, column, statistic).name)
         for step in experiment.series
     ]
-    drawn = [score if score and score.count >= FEWEST else None for score in found]
+    drawn = [score if score and score.count >= MIN_COUNT else None for score in found]
     return Line(
         name=method,
         style=experiment.methods.index(method),

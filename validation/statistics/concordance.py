@@ -11,7 +11,7 @@ from scipy import stats
 
 from validation.statistics.block import Block
 
-MOST_ARRANGEMENTS = 100_000
+MAX_ARRANGEMENTS = 100_000
 PERMUTATIONS = 1999
 _PERMUTATION_SEED = 1939
 _ROUNDING = 1e-9  # of sums of squared half ranks
@@ -80,7 +80,7 @@ class Concordance:
         """Return the chance of such a W or a greater one if every view ranked at random.
 
         Exact, over all arrangements of the ranks of all views but the first, up to
-        MOST_ARRANGEMENTS of them; beyond, (k + 1)/(N + 1) of N random ones (Phipson and Smyth
+        MAX_ARRANGEMENTS of them; beyond, (k + 1)/(N + 1) of N random ones (Phipson and Smyth
         2010). NaN where W is.
         """
         if math.isnan(self.w):
@@ -91,7 +91,7 @@ class Concordance:
             for scenes in self.stacks
         )
         found = sum(float(_shared(scenes.ranks).sum()) for scenes in self.stacks)
-        if count <= MOST_ARRANGEMENTS:
+        if count <= MAX_ARRANGEMENTS:
             each = [_every(ranks) for scenes in self.stacks for ranks in scenes.ranks]
             sums = np.array([sum(chosen) for chosen in itertools.product(*each)])
             return float(np.mean(sums >= found - _ROUNDING))

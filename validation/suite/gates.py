@@ -13,7 +13,7 @@ Text = Annotated[str, Meta(min_length=1)]
 End = Literal["value", "low", "high"]
 
 
-class Found(NamedTuple):
+class ScoreValue(NamedTuple):
     """What a score came to, and its interval; NaN where there is none."""
 
     value: float
@@ -94,11 +94,11 @@ def check_names(gates: Sequence[Gate], known: Collection[str], *, where: str) ->
         )
 
 
-def evaluate(gates: Sequence[Gate], scores: Mapping[str, Found]) -> tuple[GateResult, ...]:
+def evaluate(gates: Sequence[Gate], scores: Mapping[str, ScoreValue]) -> tuple[GateResult, ...]:
     """Hold each gate against its score. A score or end that is missing or NaN fails."""
     results = []
     for gate in gates:
-        score = scores.get(gate.score, Found(math.nan))
+        score = scores.get(gate.score, ScoreValue(math.nan))
         found = {"value": score.value, "low": score.low, "high": score.high}[gate.end]
         passed = found >= gate.bound if gate.at_least is not None else found <= gate.bound
         results.append(GateResult(gate=gate, found=found, passed=passed))

@@ -13,12 +13,12 @@ Mask = NDArray[np.bool_]
 BLUR_PX = 1.5
 LARGEST_BLOCK_PX, SMALLEST_BLOCK_PX, BLOCKS = 32, 8, 12
 UNLIKE_SIGMA = 3.0  # of the ground's texture: unlike the ground
-LEAST_TEXTURE = 0.01  # of the logarithm of brightness
+MIN_TEXTURE = 0.01  # of the logarithm of brightness
 BARE_SHARE = 0.35  # of a block must be ground to tell its brightness
 MUCH_DARKER = 0.5  # in the logarithm: never ground in the sun
 DARK = 0.55  # of the ground's brightness: in shadow, cast or its own
 RIM_PX = (2, 8)  # from the border of what is unlike the ground: where cast shadows are for sure
-FEWEST_DARK = 50
+MIN_DARK = 50
 CAST_LOW, CAST_HIGH = 0.78, 1.35  # of the cast shadows' own brightness
 DISC = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (5, 5))
 
@@ -92,7 +92,7 @@ def _ground(light: Singles, odd: Mask, block: int) -> tuple[Singles, Singles]:
         )
         for part in (middle, scatter)
     )
-    return np.asarray(ground), np.maximum(texture, np.float32(LEAST_TEXTURE))
+    return np.asarray(ground), np.maximum(texture, np.float32(MIN_TEXTURE))
 
 
 def _median(ordered: NDArray[np.floating], count: NDArray[np.intp]) -> NDArray[np.floating]:
@@ -106,7 +106,7 @@ def _cast_shadows(above: Singles, unlike: Mask) -> Mask:
     dark = unlike & (above < np.log(DARK))
     inner = cv2.distanceTransform(unlike.astype(np.uint8), cv2.DIST_L2, 5)
     rim = dark & (inner > RIM_PX[0]) & (inner < RIM_PX[1])
-    if rim.sum() < FEWEST_DARK:
+    if rim.sum() < MIN_DARK:
         return np.zeros(unlike.shape, dtype=bool)
     edges = np.arange(-4.0, 0.0, 0.04)
     counts = ndi.gaussian_filter1d(np.histogram(above[rim], bins=edges)[0].astype(float), 2)

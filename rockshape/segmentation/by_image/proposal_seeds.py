@@ -9,11 +9,11 @@ from rockshape.segmentation.by_image.ground_appearance import Lightness
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-FEWEST_PIXELS = 60
+MIN_PIXELS = 60
 DEPTHS_PX = (3, 6, 10, 16, 24)  # cores: what lies so deep within the border,
-FEWEST_IN_CORE = 18
+MIN_IN_CORE = 18
 FACET_EDGE = 4.0  # facets: what edges of so many deviations of the texture per pixel enclose,
-FEWEST_IN_FACET = 25
+MIN_IN_FACET = 25
 FACET_RIM_PX = 1.5  # and how much of it the edges hide
 ALIKE_PX, ALIKE_RADII = 3.0, 0.1  # seeds this close in place and in the logarithm of radius are one
 SMALL = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (3, 3))
@@ -29,13 +29,13 @@ def find_seeds(lightness: Lightness, *, taken: Mask) -> Floats:
     solid = _opened(clear)
     closed = cv2.morphologyEx(solid, cv2.MORPH_CLOSE, LARGE)
     depth = cv2.distanceTransform(solid, cv2.DIST_L2, 5)
-    parts = [_hulls(mask, fewest=FEWEST_PIXELS, rim_px=0) for mask in (solid, closed)]
-    parts += [_hulls(depth > px, fewest=FEWEST_IN_CORE, rim_px=px) for px in DEPTHS_PX]
+    parts = [_hulls(mask, fewest=MIN_PIXELS, rim_px=0) for mask in (solid, closed)]
+    parts += [_hulls(depth > px, fewest=MIN_IN_CORE, rim_px=px) for px in DEPTHS_PX]
     across, down = (
         cv2.Sobel(lightness.light, cv2.CV_32F, *order, scale=0.125) for order in ((1, 0), (0, 1))
     )
     even = cv2.magnitude(across, down) < FACET_EDGE * lightness.texture
-    facets = _hulls(_opened(clear & even), fewest=FEWEST_IN_FACET, rim_px=FACET_RIM_PX)
+    facets = _hulls(_opened(clear & even), fewest=MIN_IN_FACET, rim_px=FACET_RIM_PX)
     whole = np.concatenate(parts)
     seeds = np.concatenate(
         [np.insert(whole, 3, 0, axis=1), np.insert(facets, 3, 1, axis=1)], axis=0

@@ -14,12 +14,12 @@ Mask = NDArray[np.bool_]
 FOOT_SIGMA = 2.5  # a rock begins this many standard deviations above the ground
 STAND_SIGMA = 5.0  # and somewhere it stands this many above it,
 STAND_PIXELS = 12  # on so many pixels: noise is even over a matching window of about seven
-FEWEST_PIXELS = 40  # a rock of seven pixels across
+MIN_PIXELS = 40  # a rock of seven pixels across
 MEDIAN_PX = 5
 
 
 @dataclass(frozen=True, eq=False)
-class Relief:
+class HeightSignal:
     """Heights above the ground and what they mean; all (rows, cols)."""
 
     height_m: Singles  # 0 where nothing was measured
@@ -31,7 +31,7 @@ class Relief:
     fine: bool  # whether range is exact beside its pixels, and its edges the rocks'
 
 
-def relief_of(points_m: NDArray[np.float64], ground: Ground) -> Relief:
+def relief_of(points_m: NDArray[np.float64], ground: Ground) -> HeightSignal:
     """Heights of points (rows, cols, 3), NaN where unknown, in units of the noise there.
 
     The noise of a height is the ground's: its roughness, and the range's, which grows with the
@@ -49,12 +49,12 @@ def relief_of(points_m: NDArray[np.float64], ground: Ground) -> Relief:
     fine = bool(known.any()) and ground.noise.is_fine(float(np.median(depth[known])))
     signal = height / sigma if fine else cv2.medianBlur(height / sigma, MEDIAN_PX)
     signal[~known] = 0.0
-    return Relief(
+    return HeightSignal(
         height, depth, sigma, np.asarray(signal, np.float32), known, ground.noise.pixel_rad, fine
     )
 
 
-def standing(relief: Relief) -> Mask:
+def standing(relief: HeightSignal) -> Mask:
     """Pixels of regions that stand on the ground, (rows, cols).
 
     A region is 4-connected, begins 2.5 standard deviations above the ground, has 40 pixels and 12
@@ -66,7 +66,7 @@ def standing(relief: Relief) -> Mask:
         low = np.asarray(cv2.morphologyEx(low, cv2.MORPH_OPEN, cross))
     count, regions, stats, _ = cv2.connectedComponentsWithStats(low, connectivity=4)
     high = np.bincount(regions[relief.signal > STAND_SIGMA], minlength=count)
-    good = (high >= STAND_PIXELS) & (stats[:, cv2.CC_STAT_AREA] >= FEWEST_PIXELS)
+    good = (high >= STAND_PIXELS) & (stats[:, cv2.CC_STAT_AREA] >= MIN_PIXELS)
     good[0] = False
     return fill_holes(good[regions])
 

@@ -12,7 +12,7 @@ import numpy as np
 import scipy.ndimage as ndi
 from numpy.typing import NDArray
 
-from rockshape.segmentation.by_range.height_signal import Relief
+from rockshape.segmentation.by_range.height_signal import HeightSignal
 
 Mask = NDArray[np.bool_]
 Whole = NDArray[np.intp]
@@ -51,7 +51,7 @@ class _Borders:
 
 
 def split(
-    relief: Relief, mask: Mask, *, depth_sigma_m: NDArray[np.floating], flattest: float
+    relief: HeightSignal, mask: Mask, *, depth_sigma_m: NDArray[np.floating], flattest: float
 ) -> NDArray[np.int32]:
     """Labels (rows, cols) from 1 of the rocks in a mask of what stands on the ground.
 
@@ -83,7 +83,7 @@ def split(
 
 
 def _link(
-    relief: Relief, mask: Mask, pixels: Whole, *, depth_sigma_m: NDArray[np.floating]
+    relief: HeightSignal, mask: Mask, pixels: Whole, *, depth_sigma_m: NDArray[np.floating]
 ) -> _Links:
     """Neighbours within the mask, 8-connected, and whether the depth jumps between them."""
     cols = mask.shape[1] + 2
@@ -207,7 +207,9 @@ def _without_slivers(region: Whole, links: _Links, mask: Mask, pixels: Whole) ->
     return home[region]
 
 
-def _without_flat(labels: NDArray[np.int32], relief: Relief, flattest: float) -> NDArray[np.int32]:
+def _without_flat(
+    labels: NDArray[np.int32], relief: HeightSignal, flattest: float
+) -> NDArray[np.int32]:
     """Labels without regions less than `flattest` as high as they are wide."""
     keep = np.zeros(int(labels.max()) + 1, dtype=bool)
     for number, window in enumerate(ndi.find_objects(labels), start=1):

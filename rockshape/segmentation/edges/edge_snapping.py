@@ -32,7 +32,7 @@ NORMAL_MEDIAN = 0.6745
 
 
 @dataclass(frozen=True, eq=False)
-class Outline:
+class SnappedOutline:
     """A closed outline at sub-pixel places, and how sure it is."""
 
     points_px: Floats  # (n, 2) as (x, y), a pixel apart, clockwise as seen
@@ -50,7 +50,7 @@ class _Ring:
     held: NDArray[np.bool_]  # (n,), on the frame's border, where nothing can be moved
 
 
-def snap(image: Singles, labels: NDArray[np.int32], *, texture: float) -> dict[int, Outline]:
+def snap(image: Singles, labels: NDArray[np.int32], *, texture: float) -> dict[int, SnappedOutline]:
     """Outlines of the labels (rows, cols), moved to the image's edges, by number.
 
     image is (rows, cols) from 0 to 1, texture the standard deviation of its logarithm on bare
@@ -169,7 +169,7 @@ def _bleeding(
     return middle, float(np.median(np.abs(every - middle))) / NORMAL_MEDIAN
 
 
-def _outline(ring: _Ring, cost: Singles, path: NDArray[np.intp], lanes: Singles) -> Outline:
+def _outline(ring: _Ring, cost: Singles, path: NDArray[np.intp], lanes: Singles) -> SnappedOutline:
     """The path's place between lanes, by a parabola through the cost, and its uncertainty."""
     steps = np.arange(len(path))
     middle = np.clip(path, 1, len(lanes) - 2)
@@ -182,11 +182,11 @@ def _outline(ring: _Ring, cost: Singles, path: NDArray[np.intp], lanes: Singles)
     mean = near @ lanes
     variance = near @ lanes**2 - mean**2
     offset = _round(offset[:, None].astype(np.float64), 1.0)
-    return Outline(ring.points + offset * ring.normals, float(np.sqrt(variance.mean())))
+    return SnappedOutline(ring.points + offset * ring.normals, float(np.sqrt(variance.mean())))
 
 
 def paint(
-    outlines: dict[int, Outline], labels: NDArray[np.int32], *, order: list[int]
+    outlines: dict[int, SnappedOutline], labels: NDArray[np.int32], *, order: list[int]
 ) -> NDArray[np.int32]:
     """Labels with the pixels whose centres lie within the outlines; later in order covers earlier.
 

@@ -4,23 +4,27 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.segmentation.by_range.height_signal import Relief
-from rockshape.segmentation.edges.edge_snapping import BLUR_PX, Outline, paint, snap
+from rockshape.segmentation.by_range.height_signal import HeightSignal
+from rockshape.segmentation.edges.edge_snapping import BLUR_PX, SnappedOutline, paint, snap
 
 NORMAL_MEDIAN = 0.6745
-LEAST_TEXTURE = 1e-3
+MIN_TEXTURE = 1e-3
 
 
 def texture_of(image: NDArray[np.float32]) -> float:
     """Scatter of the slope of the image's logarithm, 1/px: the texture of most of the frame."""
     light = cv2.GaussianBlur(np.log(np.maximum(image, np.float32(1 / 255))), (0, 0), BLUR_PX)
     slope = np.abs(cv2.Sobel(light, cv2.CV_32F, 1, 0, scale=0.125)[::2, ::2])
-    return max(LEAST_TEXTURE, float(np.median(slope)) / NORMAL_MEDIAN)
+    return max(MIN_TEXTURE, float(np.median(slope)) / NORMAL_MEDIAN)
 
 
 def snapped(
-    image: NDArray[np.float32], labels: NDArray[np.int32], relief: Relief | None, *, texture: float
-) -> tuple[dict[int, Outline], NDArray[np.int32]]:
+    image: NDArray[np.float32],
+    labels: NDArray[np.int32],
+    relief: HeightSignal | None,
+    *,
+    texture: float,
+) -> tuple[dict[int, SnappedOutline], NDArray[np.int32]]:
     """Outlines moved to the image's edges and the labels they enclose, nearer rocks over farther.
 
     Where range's outlines lie on the image's edges already, no outline is given and the labels are

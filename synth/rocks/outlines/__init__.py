@@ -1,6 +1,6 @@
 """What is true of a rock's outline in one view: parallel rays, exact where the form allows."""
 
-from synth.rocks.outlines.record import Form, Outline, plane_across
+from synth.rocks.outlines.record import Form, OutlineTruth, plane_across
 from synth.rocks.outlines.rounded import RoundedHull
 from synth.rocks.outlines.silhouette import MeshForm, mesh_form
 from synth.rocks.outlines.smooth import EllipsoidForm, SuperellipsoidForm
@@ -9,7 +9,7 @@ __all__ = [
     "EllipsoidForm",
     "Form",
     "MeshForm",
-    "Outline",
+    "OutlineTruth",
     "RoundedHull",
     "SuperellipsoidForm",
     "mesh_form",

@@ -10,7 +10,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Outline:
+class OutlineTruth:
     """The shadow of a body under parallel rays, on a plane across them."""
 
     area_m2: float
@@ -23,7 +23,7 @@ class Outline:
 class Form(Protocol):
     """A body in its rock's frame whose outlines are known."""
 
-    def outline(self, across: Floats) -> Outline:
+    def outline(self, across: Floats) -> OutlineTruth:
         """Return the outline on the plane of two rows of unit vectors across the rays, (2, 3)."""
 
 
@@ -35,7 +35,9 @@ def plane_across(ray: Floats) -> Floats:
     return np.stack([first, np.cross(ray, first)])
 
 
-def polygon_outline(points_m: Floats, *, roundness: float, roundness_scale: float = 0.0) -> Outline:
+def polygon_outline(
+    points_m: Floats, *, roundness: float, roundness_scale: float = 0.0
+) -> OutlineTruth:
     """Return the numbers of a polygon (n, 2), anticlockwise (Gauss's formulas)."""
     following = np.roll(points_m, -1, axis=0)
     crosses = points_m[:, 0] * following[:, 1] - points_m[:, 1] * following[:, 0]
@@ -45,7 +47,7 @@ def polygon_outline(points_m: Floats, *, roundness: float, roundness_scale: floa
     squares = np.einsum("n,ni,nj->ij", crosses, points_m, points_m)
     squares += np.einsum("n,ni,nj->ij", crosses, following, following)
     squares += np.einsum("n,ni,nj->ij", crosses, total, total)
-    return Outline(
+    return OutlineTruth(
         area_m2=area_m2,
         perimeter_m=float(np.linalg.norm(following - points_m, axis=1).sum()),
         axis_ratio=axis_ratio(squares / (24.0 * area_m2) - np.outer(centre_m, centre_m)),

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
 from synth.geometry.inscribed_ball import largest_ball
-from synth.rocks.outlines.record import Outline, axis_ratio
+from synth.rocks.outlines.record import OutlineTruth, axis_ratio
 
 Floats = NDArray[np.float64]
 
@@ -29,7 +29,7 @@ class RoundedHull:
         """Return the body turned by a rotation (3, 3), then shifted by a translation (3,)."""
         return RoundedHull(self.vertices_m @ rotation.T + translation_m, self.radius_m)
 
-    def outline(self, across: Floats) -> Outline:
+    def outline(self, across: Floats) -> OutlineTruth:
         """Return the outline Q ⊕ disc, with Q the hull of the projected vertices.
 
         A projection of a Minkowski sum is the sum of the projections. So the area is
@@ -44,7 +44,7 @@ class RoundedHull:
         offsets_m = np.einsum("ij,ij->i", normals, corners_m)
         inradius_m = largest_ball(normals, offsets_m)[1]
         length_m, r = float(lengths_m.sum()), self.radius_m
-        return Outline(
+        return OutlineTruth(
             area_m2=float(offsets_m @ lengths_m / 2.0) + length_m * r + np.pi * r**2,
             perimeter_m=length_m + 2.0 * np.pi * r,
             axis_ratio=axis_ratio(_covariance_m2(corners_m, normals, r)),

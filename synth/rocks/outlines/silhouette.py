@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synth.geometry.mesh import Mesh
-from synth.rocks.outlines.record import Outline, polygon_outline
+from synth.rocks.outlines.record import OutlineTruth, polygon_outline
 from synth.rocks.outlines.smoothed import SCALE, smoothed_roundness
 
 Floats = NDArray[np.float64]
@@ -24,13 +24,13 @@ class MeshForm:
     edges: Ints  # (k, 2), vertices
     sides: Ints  # (k, 2), the faces at each edge
 
-    def outline(self, across: Floats) -> Outline:
+    def outline(self, across: Floats) -> OutlineTruth:
         """Return the outline under parallel rays; see `silhouette`."""
         return self.silhouette(across)
 
     def silhouette(
         self, across: Floats, *, camera_m: float | None = None, bearings: int = BEARINGS
-    ) -> Outline:
+    ) -> OutlineTruth:
         """Return the outline on the plane through the origin, its rows `across` (2, 3).
 
         Where a face turned to the viewer meets one turned away lies an edge that may be on the

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ellipe
 
-from synth.rocks.outlines.record import Outline, polygon_outline
+from synth.rocks.outlines.record import OutlineTruth, polygon_outline
 
 Floats = NDArray[np.float64]
 
@@ -19,13 +19,13 @@ class EllipsoidForm:
 
     half_axes_m: Floats  # (3,)
 
-    def outline(self, across: Floats) -> Outline:
+    def outline(self, across: Floats) -> OutlineTruth:
         """Return the outline, an ellipse p >= q: A = πpq, L = 4pE(1 − q²/p²), exact.
 
         Its two corners have the radius of curvature q²/p, its inscribed disc q: roundness q/p.
         """
         short_m, long_m = np.sqrt(np.linalg.eigvalsh((across * self.half_axes_m**2) @ across.T))
-        return Outline(
+        return OutlineTruth(
             area_m2=float(np.pi * short_m * long_m),
             perimeter_m=float(4.0 * long_m * ellipe(1.0 - (short_m / long_m) ** 2)),
             axis_ratio=float(short_m / long_m),
@@ -58,7 +58,7 @@ class SuperellipsoidForm:
             self.half_axes_m * np.sign(scaled) * gradient / support[:, None] ** (steep - 1.0)
         )
 
-    def outline(self, across: Floats, *, directions: int = DIRECTIONS) -> Outline:
+    def outline(self, across: Floats, *, directions: int = DIRECTIONS) -> OutlineTruth:
         """Return the outline through the contact points of many tangents, all on it.
 
         Corners are the places of least radius of curvature dL/dθ that is less than the inscribed

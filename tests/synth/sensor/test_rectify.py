@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from synth.camera.camera import Camera, pixel_rays, undistorted
+from synth.camera.camera import RenderCamera, pixel_rays, undistorted
 from synth.light import light_scene
 from synth.render import open_renderer, render_view
 from synth.scene.scene import build_scene
@@ -14,7 +14,7 @@ from synth.sensor.rectify import Rectification
 from synth.sensor.rig import rig_of
 from synth.spec import convert_spec
 
-CAMERA = Camera(260.0, 250.0, 159.5, 119.5, 320, 240)
+CAMERA = RenderCamera(260.0, 250.0, 159.5, 119.5, 320, 240)
 
 
 @pytest.fixture(params=[(-0.25, 0.06, 1e-3, -2e-3, 0.0), (0.4, 0.0, 0.0, 1e-3, 0.0)])

@@ -53,7 +53,7 @@ def test_what_leaves_the_right_picture_is_a_hole(pattern):
 def test_bands_of_rows_change_little(pattern, monkeypatch):
     left, right = shifted(pattern, 16.0)
     whole = matched_disparity_px(left, right, least_px=8, count=32, window_px=7)
-    monkeypatch.setattr(sgm, "_MOST_BYTES", 0)  # bands of the overlap's height
+    monkeypatch.setattr(sgm, "_MAX_BYTES", 0)  # bands of the overlap's height
     banded = matched_disparity_px(left, right, least_px=8, count=32, window_px=7)
     both = ~np.isnan(whole) & ~np.isnan(banded)
     assert both.mean() > 0.85

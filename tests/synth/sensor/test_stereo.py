@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from synth.errors import InputError
+from synth.errors import SpecError
 from synth.sensor import rig as rig_module
 from synth.sensor.occlusion import contrast, half_occluded
 from synth.sensor.rig import Rig, rig_of
@@ -122,7 +122,7 @@ def test_one_eye_is_refused(monkeypatch):
 
     lone = dataclasses.replace(rig_module.PRESETS["imp"], baseline_m=None)
     monkeypatch.setitem(rig_module.PRESETS, "imp", lone)
-    with pytest.raises(InputError, match=r"noise\.kind.*two eyes.*'imp'"):
+    with pytest.raises(SpecError, match=r"noise\.kind.*two eyes.*'imp'"):
         rig_of("imp")
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.kinds.design.variance_components import FEWEST_VIEWS, whole_views
+from validation.kinds.design.variance_components import MIN_VIEWS, whole_views
 
 Floats = NDArray[np.float64]
 
@@ -26,7 +26,7 @@ def _deviations(clean: Floats, outlines: Floats, whole: NDArray[np.bool_]) -> Fl
     1 + truths), every column of mean 0. None with too few views, or without a true outline.
     """
     values, truths = clean[whole].mean(axis=(1, 2)), outlines[whole]
-    if whole.sum() < FEWEST_VIEWS or not np.isfinite(truths).all() or values.mean() == 0:
+    if whole.sum() < MIN_VIEWS or not np.isfinite(truths).all() or values.mean() == 0:
         return None
     return np.column_stack([values / values.mean() - 1.0, truths - truths.mean(axis=0)])
 

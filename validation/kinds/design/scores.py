@@ -11,7 +11,7 @@ from rockshape.measures.measure import Measure
 from validation.kinds.design.outlines import TRUTH_OF, explained_share, moments_of
 from validation.kinds.design.shared_variance import movements
 from validation.kinds.design.tensors import Cubes, cubes_of
-from validation.kinds.design.variance_components import CAUSES, FEWEST_VIEWS, split
+from validation.kinds.design.variance_components import CAUSES, MIN_VIEWS, split
 from validation.kinds.design.work import CLEAN, FOUND, NOISY, STATES
 from validation.scores.score import Better, Definition, Estimate, Key
 from validation.scores.titles import REFERENCE
@@ -82,7 +82,7 @@ def _cv_clean(cubes: Cubes) -> Estimate:
     table = np.full(len(cubes.clean), np.nan)
     for rock, clean in enumerate(cubes.clean):
         whole = np.isfinite(clean).all(axis=(1, 2))
-        if whole.sum() >= FEWEST_VIEWS and clean[whole].mean() != 0.0:
+        if whole.sum() >= MIN_VIEWS and clean[whole].mean() != 0.0:
             table[rock] = clean[whole].var() / clean[whole].mean() ** 2
     return _pooled(table, lambda mean: float(np.sqrt(mean)))
 

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-FEWEST_CELLS = 3
+MIN_CELLS = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +41,7 @@ def movements(values: Floats, *, rocks_a_scene: int) -> Movements:
         scene = values[start : start + rocks_a_scene]
         for i, j in zip(*np.triu_indices(len(scene), 1), strict=True):
             both = scene[[i, j]][:, np.isfinite(scene[[i, j]]).all(axis=0)]
-            if both.shape[1] < FEWEST_CELLS or (both.mean(axis=1) <= 0).any():
+            if both.shape[1] < MIN_CELLS or (both.mean(axis=1) <= 0).any():
                 continue
             moved = np.cov(both / both.mean(axis=1, keepdims=True), bias=True)
             pairs.append((start + int(i), start + int(j), moved[0, 1], np.trace(moved) / 2.0))

@@ -9,7 +9,7 @@ from validation.errors import InputError
 
 Floats = NDArray[np.float64]
 
-FEWEST_VIEWS = 2
+MIN_VIEWS = 2
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ def split(clean: Floats, found: Floats, noisy: Floats) -> Parts | None:
     if min(distances, suns, rolls) < 2:
         raise InputError(f"design: expected two levels and more, found {found.shape}")
     whole = whole_views(clean, found, noisy)
-    if whole.sum() < FEWEST_VIEWS:
+    if whole.sum() < MIN_VIEWS:
         return None
     clean, found, noisy = clean[whole], found[whole], noisy[whole]
     square = clean.mean() ** 2

@@ -13,16 +13,16 @@ from rockshape.measures import METHODS
 from rockshape.observation import Observation
 from rockshape.pipeline import measure
 from rockshape.segmentation import segment
-from synth.camera.camera import Camera as SynthCamera
+from synth.camera.camera import RenderCamera as SynthCamera
 from synth.dataset.shape_truth import scene_gt_shape
 from synth.light import light_scene
 from synth.render import choose_backend, open_renderer, render_view
-from synth.render.view import View
+from synth.render.view import RenderedView
 from synth.sensor import capture_view
 from synth.sensor.rig import rig_of
 from synth.spec import SceneSpec
 from validation.kinds.design.placement import near_spec, scenes_of
-from validation.records.join import Place, join
+from validation.records.join import RecordKey, join
 from validation.records.match import match_labels
 from validation.suite.experiments import DesignExperiment
 
@@ -112,7 +112,7 @@ def shots(spec: SceneSpec, experiment: DesignExperiment) -> Iterator[tuple[Shot,
                     yield shot, _camera(lens)
 
 
-def _under(view: View, light: NDArray[np.float32]) -> View:
+def _under(view: RenderedView, light: NDArray[np.float32]) -> RenderedView:
     image = np.rint(255.0 * np.clip(light, 0.0, 1.0)).astype(np.uint8)
     return replace(view, light=light, image=image)
 
@@ -122,7 +122,7 @@ def _camera(lens: SynthCamera) -> Camera:
 
 
 def _truth(
-    rocks: list[dict[str, object]], experiment: DesignExperiment, view: View
+    rocks: list[dict[str, object]], experiment: DesignExperiment, view: RenderedView
 ) -> pd.DataFrame:
     """Return one row a rock; `eligible` rocks are seen whole by both eyes.
 
@@ -152,7 +152,7 @@ def _measured(experiment: DesignExperiment, scene: int, shot: Shot, camera: Came
             if state != CLEAN and method == REFERENCE:
                 labels = true_rocks(observation, shot.instances, min_iou=experiment.min_iou)
             found = measure(observation, method=method, labels=labels)
-            place = Place(
+            place = RecordKey(
                 experiment=experiment.name,
                 kind="design",
                 series=state,

@@ -12,7 +12,7 @@ from rockshape.ground import fit_plane
 from rockshape.observation import Observation
 
 HEIGHT_M = 0.03
-FEWEST_PIXELS = 40
+MIN_PIXELS = 40
 PEAK_DISTANCE_PX = 7
 
 Labels = NDArray[np.int32]
@@ -55,4 +55,4 @@ def _parts(mask: NDArray[np.bool_]) -> Labels:
 
 
 def _large(labels: Labels) -> Labels:
-    return np.where((np.bincount(labels.ravel()) >= FEWEST_PIXELS)[labels], labels, 0)
+    return np.where((np.bincount(labels.ravel()) >= MIN_PIXELS)[labels], labels, 0)

@@ -7,7 +7,7 @@ import scipy.ndimage as ndi
 from numpy.typing import NDArray
 
 from rockshape.camera.camera import Camera
-from validation.records.truth import RockView
+from validation.records.truth import RockInView
 from validation.suite.experiments import SegmentationExperiment
 
 Floats = NDArray[np.float64]
@@ -27,7 +27,7 @@ class ViewTruth:
 def view_truth(
     labels: NDArray[np.int32],
     exact_m: Floats,
-    rocks: tuple[RockView, ...],
+    rocks: tuple[RockInView, ...],
     *,
     experiment: SegmentationExperiment,
 ) -> ViewTruth:

@@ -20,7 +20,7 @@ from synth.render import choose_backend
 from validation.kinds.segmentation.baselines import fixed_height, otsu, plain_watershed
 from validation.kinds.segmentation.judge import Rule, judge
 from validation.kinds.segmentation.truth import ViewTruth, range_counts, view_truth
-from validation.records.join import Place
+from validation.records.join import RecordKey
 from validation.records.pictures import Picture, compress
 from validation.records.truth import read_instances, read_scene_truth
 from validation.suite.experiments import SegmentationExperiment
@@ -28,7 +28,7 @@ from validation.suite.experiments import SegmentationExperiment
 Labels = NDArray[np.int32]
 Floats = NDArray[np.float64]
 
-MOST_BASELINE_M = 0.424
+MAX_BASELINE_M = 0.424
 TRUE_COLOUR, FOUND_COLOUR = (64, 180, 255), (255, 209, 56)  # RGB
 
 
@@ -79,7 +79,7 @@ def run_scene(
             made = _segment(
                 way, Observation(image=image, points_m=points, camera=camera), truth, experiment
             )
-            place = Place(experiment.name, "segmentation", series, scene, spec.seed, view, "")
+            place = RecordKey(experiment.name, "segmentation", series, scene, spec.seed, view, "")
             records.append(_rows(place, truth, counts, made, exact_m=exact, experiment=experiment))
             if scene < experiment.pictured and view == 0:
                 shown = draw(image, truth.labels, made.labels)
@@ -88,7 +88,7 @@ def run_scene(
 
 
 def _baseline_m(experiment: SegmentationExperiment) -> float:
-    return PRESETS[experiment.scene.camera.preset].baseline_m or MOST_BASELINE_M
+    return PRESETS[experiment.scene.camera.preset].baseline_m or MAX_BASELINE_M
 
 
 def _segment(
@@ -141,7 +141,7 @@ def _sigma_h(
 
 
 def _rows(
-    place: Place,
+    place: RecordKey,
     truth: ViewTruth,
     counts: NDArray[np.bool_],
     made: Segmented,

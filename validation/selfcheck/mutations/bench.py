@@ -12,7 +12,7 @@ from rockshape.measurement import Measurement, to_frame
 from rockshape.measures import METHODS
 from rockshape.pipeline import measure
 from validation.execution.units import MeasuredUnit, units_of
-from validation.execution.views import View, views_of
+from validation.execution.views import ViewCase, views_of
 from validation.kinds.scoring import gate_scores, score_names
 from validation.records.join import join
 from validation.selfcheck.mutations.mutation import Mutation
@@ -34,7 +34,7 @@ class Bench:
     """A suite's views with the undisturbed measurement of each."""
 
     suite: Suite
-    views: tuple[tuple[View, Measurement], ...]
+    views: tuple[tuple[ViewCase, Measurement], ...]
     records: pd.DataFrame
 
     def failing(self, records: pd.DataFrame) -> tuple[str, ...]:
@@ -65,7 +65,7 @@ class Bench:
         return Caught(mutation, self.failing(records))
 
 
-def _joined(view: View, found: Measurement, table: pd.DataFrame) -> pd.DataFrame:
+def _joined(view: ViewCase, found: Measurement, table: pd.DataFrame) -> pd.DataFrame:
     place = replace(view.place, method=found.method)
     return join(place, view.truth, view.instances, found.labels, table, min_iou=view.min_iou)
 
@@ -85,7 +85,7 @@ def _measures(method: str, evaluate_by_column: Mapping[str, object]) -> Iterator
         METHODS[method] = whole
 
 
-def _mutated(view: View, found: Measurement, mutation: Mutation) -> pd.DataFrame:
+def _mutated(view: ViewCase, found: Measurement, mutation: Mutation) -> pd.DataFrame:
     table = to_frame(found)
     if mutation.evaluate:
         with _measures(found.method, mutation.evaluate):

@@ -21,7 +21,7 @@ from synth.light import light_scene
 from synth.render import choose_backend, open_renderer, render_view
 from synth.render.view import depth_limits_m
 from synth.scene.population import expected_count
-from synth.scene.scene import Scene, build_scene
+from synth.scene.scene import SceneModel, build_scene
 from synth.spec import RendererName, SceneSpec, convert_spec
 from synth.spec.population import PopulationSpec
 
@@ -81,7 +81,7 @@ def _field(rocks: int) -> SceneSpec:
     return convert_spec(table, where="field")
 
 
-def _write(spec: SceneSpec, scene: Scene, backend: RendererName) -> None:
+def _write(spec: SceneSpec, scene: SceneModel, backend: RendererName) -> None:
     """Write a whole scene whose rocks are made already."""
     dataset.build_scene = lambda *_: scene
     with TemporaryDirectory() as folder:

@@ -23,7 +23,7 @@ from rockshape.rock.view import RockView
 from synth.light import light_scene
 from synth.render import choose_backend, open_renderer, render_view
 from synth.rocks.truth import maximum_projection_sphericity
-from synth.scene.scene import Scene, build_scene
+from synth.scene.scene import SceneModel, build_scene
 from synth.sensor import capture_view
 from synth.spec import SceneSpec
 from synth.spec.rocks import RocksSpec
@@ -99,7 +99,7 @@ def measured(view: RockView, method: str) -> tuple[Floats, Floats]:
     return values, np.full(3, np.nan) if body is None else body.half_axes_m
 
 
-def knob_of(scene: Scene, instance: int, series: str) -> float:
+def knob_of(scene: SceneModel, instance: int, series: str) -> float:
     """What is turned in a series, rising with angularity."""
     truth = scene.rocks[instance].rock.truth
     if series == "graded":

@@ -12,7 +12,7 @@ from synth.camera.camera import RenderCamera
 from synth.dataset.bop_canvas import Beyond, Canvas, Window, united
 from synth.geometry.mesh import Mesh
 from synth.render.view import Sight
-from synth.scene.scene import Scene
+from synth.scene.scene import SceneModel
 
 Floats = NDArray[np.float64]
 Table = dict[str, Any]
@@ -42,7 +42,7 @@ def camera_table(camera: RenderCamera, depth_scale: float) -> Table:
     }
 
 
-def scene_camera(scene: Scene, depth_scale: float) -> Table:
+def scene_camera(scene: SceneModel, depth_scale: float) -> Table:
     """Return scene_camera.json: each view's K and pose, millimetres."""
     return {
         str(view): {
@@ -55,7 +55,7 @@ def scene_camera(scene: Scene, depth_scale: float) -> Table:
     }
 
 
-def scene_gt(scene: Scene, index: int) -> Table:
+def scene_gt(scene: SceneModel, index: int) -> Table:
     """Return scene_gt.json: each rock's pose in each view, millimetres."""
     return {
         str(view): [
@@ -71,7 +71,7 @@ def scene_gt(scene: Scene, index: int) -> Table:
 
 
 def scene_gt_info(
-    scene: Scene, views: Sequence[Sight], valid: Sequence[NDArray[np.bool_]]
+    scene: SceneModel, views: Sequence[Sight], valid: Sequence[NDArray[np.bool_]]
 ) -> Table:
     """Return scene_gt_info.json: boxes and pixel counts; an unseen rock's boxes are −1.
 
@@ -111,7 +111,7 @@ def _info(
     }
 
 
-def scene_gt_coco(scene: Scene, index: int, views: Sequence[Sight]) -> Table:
+def scene_gt_coco(scene: SceneModel, index: int, views: Sequence[Sight]) -> Table:
     """Return scene_gt_coco.json: what is visible, in run lengths down the columns.
 
     A rock that is not seen has no annotation.

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from synth.camera.camera import Pose, RenderCamera, distorted, undistorted
 from synth.geometry.mesh import Mesh
 from synth.light.rays import directions
-from synth.scene.scene import Scene
+from synth.scene.scene import SceneModel
 
 Floats = NDArray[np.float64]
 Window = tuple[int, int, int, int]  # first column and row, and those after the last
@@ -31,7 +31,7 @@ class Beyond:
 class Canvas:
     """Nine frames, the camera's in their middle; a rock's rays are set up when first asked for."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: SceneModel) -> None:
         self._camera = scene.camera
         self._meshes = [placed.mesh for placed in scene.rocks]
         self._surfaces: dict[int, EmbreeScene] = {}

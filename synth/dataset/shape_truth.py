@@ -10,7 +10,7 @@ from synth.camera.camera import Pose, RenderCamera
 from synth.dataset.bop import model_info, object_id
 from synth.render.view import Sight
 from synth.rocks.outlines import Form, mesh_form, plane_across
-from synth.scene.scene import PlacedRock, Scene
+from synth.scene.scene import PlacedRock, SceneModel
 
 Floats = NDArray[np.float64]
 Table = dict[str, Any]
@@ -18,7 +18,7 @@ Table = dict[str, Any]
 RESOLVABLE_PX = 3.0  # least radius of the corners in the image from which roundness can be told
 
 
-def scene_gt_shape(scene: Scene, index: int, views: Sequence[Sight]) -> Table:
+def scene_gt_shape(scene: SceneModel, index: int, views: Sequence[Sight]) -> Table:
     """Return scene_gt_shape.json: each rock's truth, and how each view sees it."""
     forms = [placed.rock.form or mesh_form(placed.rock.mesh) for placed in scene.rocks]
     return {

@@ -20,7 +20,7 @@ from synth.dataset.shape_truth import scene_gt_shape
 from synth.light import light_scene
 from synth.render import open_renderer, render_view
 from synth.render.view import Sight
-from synth.scene.scene import Scene, build_scene
+from synth.scene.scene import SceneModel, build_scene
 from synth.sensor import Capture, capture_view
 from synth.spec import RendererName, SceneSpec
 
@@ -176,7 +176,7 @@ def _write_masks(folder: Path, number: int, view: Sight) -> None:
 
 def _write_tables(
     folder: Path,
-    scene: Scene,
+    scene: SceneModel,
     index: int,
     views: list[Sight],
     *,

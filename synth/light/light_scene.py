@@ -5,12 +5,12 @@ import numpy as np
 from synth.light.body import Body
 from synth.light.lit_scene import Stage
 from synth.light.painter import Painter
-from synth.scene.scene import Scene
+from synth.scene.scene import SceneModel
 from synth.spec.surface import SurfaceSpec
 from synth.spec.view import SunSpec
 
 
-def light_scene(scene: Scene, sun: SunSpec, surface: SurfaceSpec | None = None) -> Stage:
+def light_scene(scene: SceneModel, sun: SunSpec, surface: SurfaceSpec | None = None) -> Stage:
     """Return the scene's surfaces with a painter that knows their light."""
     surface = SurfaceSpec() if surface is None else surface
     rocks = tuple(

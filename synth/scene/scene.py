@@ -45,7 +45,7 @@ class _Standing:
 
 
 @dataclass(frozen=True, eq=False)
-class Scene:
+class SceneModel:
     """Rocks on the ground, the camera and its stations."""
 
     rocks: tuple[PlacedRock, ...]
@@ -54,7 +54,7 @@ class Scene:
     ground: Terrain
 
 
-def build_scene(spec: SceneSpec, index: int) -> Scene:
+def build_scene(spec: SceneSpec, index: int) -> SceneModel:
     """Return scene `index` of a dataset, a function of its arguments alone.
 
     What can be switched on draws from generators of its own, so that it does not change the rest.
@@ -90,7 +90,7 @@ def build_scene(spec: SceneSpec, index: int) -> Scene:
         _lay(one, place, ground, burial=burial, albedo=float(albedo))
         for one, place, burial, albedo in zip(standing, places_m, burials, albedos, strict=True)
     )
-    return Scene(rocks=placed, camera=camera, poses=tuple(poses), ground=ground)
+    return SceneModel(rocks=placed, camera=camera, poses=tuple(poses), ground=ground)
 
 
 def _child(spec: SceneSpec, index: int, key: int) -> np.random.Generator:

@@ -13,7 +13,7 @@ from synth.light import Stage, light_scene
 from synth.render import open_renderer, render_view
 from synth.rocks.ellipsoid import ellipsoid
 from synth.scene.ground import make_ground
-from synth.scene.scene import PlacedRock, Scene, build_scene
+from synth.scene.scene import PlacedRock, SceneModel, build_scene
 from synth.spec import SceneSpec
 from synth.spec.ground import GroundSpec
 from synth.spec.rocks import RocksSpec
@@ -23,7 +23,7 @@ BALL_RADIUS_M = 0.5
 BALL_CENTRE_M = np.array([0.1, -0.05, 0.5])
 
 
-def ball_scene() -> Scene:
+def ball_scene() -> SceneModel:
     """Return a ball on the ground, seen off centre so that an error in cx or cy shows."""
     rock = ellipsoid(np.full(3, BALL_RADIUS_M))
     mesh: Mesh = rock.mesh.moved(np.eye(3), BALL_CENTRE_M)
@@ -33,10 +33,10 @@ def ball_scene() -> Scene:
     camera = RenderCamera(fx=400.0, fy=410.0, cx=140.3, cy=128.6, width=300, height=240)
     pose = ring(count=1, distance_m=4.0, elevation_rad=0.6, start_rad=0.3)
     ground = make_ground(GroundSpec(), radius_m=4.0, rng=np.random.default_rng(0))
-    return Scene(rocks=(placed,), camera=camera, poses=tuple(pose), ground=ground)
+    return SceneModel(rocks=(placed,), camera=camera, poses=tuple(pose), ground=ground)
 
 
-def pair_scene() -> Scene:
+def pair_scene() -> SceneModel:
     """Return the ball with another behind it, partly hidden."""
     scene = ball_scene()
     front = scene.rocks[0]
@@ -47,7 +47,7 @@ def pair_scene() -> Scene:
     return replace(scene, rocks=(front, back))
 
 
-def yard_scene() -> Scene:
+def yard_scene() -> SceneModel:
     """Return rocks of all families."""
     spec = SceneSpec(
         seed=4,

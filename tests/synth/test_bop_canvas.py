@@ -11,7 +11,7 @@ from synth.dataset.bop_canvas import Beyond, Canvas
 from synth.light import light_scene
 from synth.render import choose_backend, open_renderer, render_view
 from synth.render.view import depth_limits_m
-from synth.scene.scene import Scene, build_scene
+from synth.scene.scene import SceneModel, build_scene
 from synth.spec import SceneSpec
 from synth.spec.rocks import RocksSpec
 from synth.spec.view import CameraSpec, ViewsSpec
@@ -36,7 +36,7 @@ def scene_from(target_m, *, wide=False, distortion=None):
             cy=camera.cy + camera.height,
         )
     poses = (look_at(scene.poses[0].position_m(), np.array(target_m)),)
-    return Scene(rocks=scene.rocks, camera=camera, poses=poses, ground=scene.ground)
+    return SceneModel(rocks=scene.rocks, camera=camera, poses=poses, ground=scene.ground)
 
 
 def view_of(scene):
@@ -93,7 +93,7 @@ def test_a_rock_round_the_camera_is_counted_ahead_alone():
     camera = PRESETS["imp"].camera
     middle_m = scene.rocks[0].position_m
     pose = look_at(middle_m, middle_m + np.array([1.0, 0.2, 0.1]))
-    inside = Scene(rocks=scene.rocks[:1], camera=camera, poses=(pose,), ground=scene.ground)
+    inside = SceneModel(rocks=scene.rocks[:1], camera=camera, poses=(pose,), ground=scene.ground)
     view = view_of(inside)
     assert np.isnan(view.boxes_px[0]).all()
     info = scene_gt_info(inside, [view], [view.depth_m > 0.0])["0"][0]

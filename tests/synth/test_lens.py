@@ -22,7 +22,7 @@ from synth.render import open_renderer, render_view
 from synth.render.view import depth_limits_m
 from synth.rocks.ellipsoid import ellipsoid
 from synth.scene.ground import make_ground
-from synth.scene.scene import PlacedRock, Scene, build_scene
+from synth.scene.scene import PlacedRock, SceneModel, build_scene
 from synth.spec import convert_spec
 from synth.spec.ground import GroundSpec
 from synth.spec.surface import SurfaceSpec
@@ -94,7 +94,7 @@ def seen(request):
     )
     pose = look_at(np.array([2.6, 0.2, 1.6]), np.array([0.0, 0.0, 0.5]))
     ground = make_ground(GroundSpec(), radius_m=4.0, rng=np.random.default_rng(1))
-    scene = Scene(rocks=(placed,), camera=camera, poses=(pose,), ground=ground)
+    scene = SceneModel(rocks=(placed,), camera=camera, poses=(pose,), ground=ground)
     sun = SunSpec(shadows=False)
     stage = light_scene(scene, sun, SurfaceSpec(contrast=0.0))
     renderer = open_renderer("embree", stage, camera)
@@ -144,7 +144,7 @@ def test_ground_fills_the_frame(lens):
     camera = replace(CAMERA, distortion=lens)
     pose = look_at(np.array([3.0, 0.0, 3.0]), np.zeros(3))
     ground = make_ground(GroundSpec(), radius_m=4.0, rng=np.random.default_rng(1))
-    scene = Scene(rocks=(), camera=camera, poses=(pose,), ground=ground)
+    scene = SceneModel(rocks=(), camera=camera, poses=(pose,), ground=ground)
     stage = light_scene(scene, SunSpec(), SurfaceSpec())
     near_m, far_m = depth_limits_m(stage, camera, pose)
     _, depth_m = open_renderer("embree", stage, camera).measure(pose, (near_m, far_m), None)

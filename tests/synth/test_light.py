@@ -11,7 +11,7 @@ from synth.render import open_renderer
 from synth.render.view import render_light
 from synth.rocks.ellipsoid import ellipsoid
 from synth.scene.ground import make_ground
-from synth.scene.scene import PlacedRock, Scene, build_scene
+from synth.scene.scene import PlacedRock, SceneModel, build_scene
 from synth.spec import convert_spec
 from synth.spec.ground import GroundSpec
 from synth.spec.surface import SurfaceSpec
@@ -32,7 +32,7 @@ def ball(place_m):
 
 def stage_of(*places, sun, **ground):
     lie = make_ground(GroundSpec(**ground), radius_m=3.0, rng=np.random.default_rng(1))
-    scene = Scene(rocks=tuple(map(ball, places)), camera=None, poses=(), ground=lie)
+    scene = SceneModel(rocks=tuple(map(ball, places)), camera=None, poses=(), ground=lie)
     return light_scene(scene, sun, SurfaceSpec())
 
 

@@ -6,7 +6,7 @@ import msgspec
 import numpy as np
 
 from synth.camera.trajectories import stations
-from synth.scene.scene import PlacedRock, Scene, build_scene
+from synth.scene.scene import PlacedRock, SceneModel, build_scene
 from synth.spec import SceneSpec
 from validation.suite.experiments import DesignExperiment
 
@@ -19,7 +19,7 @@ def near_spec(experiment: DesignExperiment, scene: int) -> SceneSpec:
     )
 
 
-def scenes_of(spec: SceneSpec, experiment: DesignExperiment) -> tuple[tuple[Scene, ...], ...]:
+def scenes_of(spec: SceneSpec, experiment: DesignExperiment) -> tuple[tuple[SceneModel, ...], ...]:
     """Return the scene for each distance and roll, (distances, rolls).
 
     At s times the least distance the rocks lie s times as far from the centre of the level ground:

@@ -1,27 +1,30 @@
-"""The command `rockshape`, whose sub-commands are the entry points `rockshape.commands`.
+"""Command line `rockshape`: sub-commands from the entry points `rockshape.commands`.
 
 A sub-command is a module with
 
 - `HELP`: one line for the list of commands;
-- `add_arguments(parser)`: declares its arguments;
+- `add_arguments(parser)`: declares its arguments and, as `parser.epilog`, two examples;
 - `run(args) -> int`: does the work and returns the exit status.
 
-Only the module of the command that was asked for is imported. An exception that carries an
-integer `exit_status` is the user's mistake or the machine's lack: it is printed as one line.
-So is a file that the system refuses. Any other exception is a defect and keeps its traceback.
+Help and version must come up at once, so such a module imports what is heavy (numpy and all that
+stands on it) within `run`. An exception that carries an integer `exit_status` is the user's mistake
+or a lack of the machine and is printed as one line; so is a file that the system refuses. Any other
+exception is a defect and keeps its traceback.
 """
 
 import argparse
 import sys
 from collections.abc import Sequence
 from importlib.metadata import EntryPoint, entry_points, version
-from typing import NoReturn, Protocol, cast
+from typing import Protocol, cast
+
+from rockshape.commands.parser import CommandParser, examples
 
 GROUP = "rockshape.commands"
 
 
 class Command(Protocol):
-    """What a sub-command's module offers."""
+    """Sub-command's module."""
 
     HELP: str
 
@@ -32,38 +35,46 @@ class Command(Protocol):
         """Do the work and return the exit status."""
 
 
-class _Parser(argparse.ArgumentParser):
-    """An argument parser whose complaint is a single line."""
-
-    def error(self, message: str) -> NoReturn:
-        self.exit(2, f"{self.prog}: {message} (see {self.prog} --help)\n")
-
-
 def _load(entry: EntryPoint) -> Command:
     return cast(Command, entry.load())
 
 
-def _build_parser(argv: Sequence[str]) -> argparse.ArgumentParser:
-    entries = {entry.name: entry for entry in entry_points(group=GROUP)}
-    parser = _Parser(
+def _build_parser() -> CommandParser:
+    parser = CommandParser(
         prog="rockshape",
         description="Measure the shape of rocks, make rocks of known shape, compare the two.",
+        epilog=examples(
+            "rockshape measure rock.png --range rock.npz --out rocks.csv --overlay rocks.png",
+            "rockshape validate run --suite ci --out reports/ci",
+        ),
     )
     parser.add_argument("--version", action="version", version=f"rockshape {version('rockshape')}")
-    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    asked = argv[0] if argv and argv[0] in entries else None
-    for name in [asked] if asked else sorted(entries):
+    return parser
+
+
+def _add_commands(parser: CommandParser, *, asked: str | None) -> None:
+    """Add the command that was asked for, or all where it is none of them."""
+    entries = {entry.name: entry for entry in entry_points(group=GROUP)}
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND")
+    for name in [asked] if asked in entries else sorted(entries):
         command = _load(entries[name])
         subparser = commands.add_parser(name, help=command.HELP, description=command.HELP)
         command.add_arguments(subparser)
         subparser.set_defaults(run=command.run)
-    return parser
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run one command and return its exit status: 0 done, 1 a gate failed, 2 input, 3 backend."""
+    """Run one command and return its exit status: 0 done, 1 a gate failed, 2 input, 3 backend.
+
+    Without arguments the help is printed.
+    """
     argv = sys.argv[1:] if argv is None else argv
-    args = _build_parser(argv).parse_args(argv)
+    parser = _build_parser()
+    _add_commands(parser, asked=argv[0] if argv else None)
+    args = parser.parse_args(argv)
+    if "run" not in args:
+        parser.print_help()
+        return 0
     try:
         return int(args.run(args))
     except BrokenPipeError:

@@ -28,7 +28,7 @@ from validation.execution.units import Unit, describe, units_of
 from validation.kinds.scoring import score_names
 from validation.peers import Trait
 from validation.peers.adapters import ADAPTERS
-from validation.peers.parse import parse_measure, parse_rises_with, settle
+from validation.peers.parse import parse_measure, parse_traits, settle
 from validation.report import check_target, write_run
 from validation.report.comparison import comparison_markdown
 from validation.report.format import number
@@ -95,11 +95,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         f"{{out}}, or a peer ({', '.join(ADAPTERS)}); may be repeated",
     )
     run_parser.add_argument(
+        "--expected-trait",
         "--rises-with",
         action="append",
         default=[],
         metavar="COLUMN=TRAIT",
-        help=f"what a column of --measure should rise with: {', '.join(get_args(Trait))}",
+        help=f"trait that a column of --measure should rise with: {', '.join(get_args(Trait))}",
     )
     run_parser.set_defaults(action=_run)
     about = "Compare two runs of a suite, rock by rock: what moved, and what got worse."
@@ -146,19 +147,19 @@ def _command(args: argparse.Namespace) -> str:
     words = ["rockshape", "validate", "run", "--suite", args.suite]
     words += [word for method in args.method or () for word in ("--method", method)]
     words += ["--gates", str(args.gates)] if args.gates else []
-    for option, values in (("--measure", args.measure), ("--rises-with", args.rises_with)):
+    for option, values in (("--measure", args.measure), ("--expected-trait", args.expected_trait)):
         words += [word for value in values for word in (option, value)]
     return shlex.join([*words, "--jobs", str(args.jobs)])
 
 
 def _with_measures(suite: Suite, args: argparse.Namespace) -> Suite:
     """Return the suite with the measures of the command line, each tried once."""
-    asked = parse_rises_with(args.rises_with)
+    asked = parse_traits(args.expected_trait)
     specs = [settle(spec, {}) for spec in suite.measures]
     specs += [settle(parse_measure(text), asked) for text in args.measure]
-    idle = [name for name in asked if not any(name in spec.rises_with for spec in specs)]
+    idle = [name for name in asked if not any(name in spec.expected_trait for spec in specs)]
     if idle:
-        raise InputError(f"--rises-with: expected a column of a --measure, found {idle[0]!r}")
+        raise InputError(f"--expected-trait: expected a column of a --measure, found {idle[0]!r}")
     try:
         whole = msgspec.structs.replace(suite, measures=tuple(specs))
         whole.__post_init__()

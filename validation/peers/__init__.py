@@ -1,7 +1,18 @@
-"""Any measure, ours or another's, as something that turns a view into a table of rocks."""
+"""Measures from elsewhere: functions, commands and peer packages, run on the rocks of a view."""
 
+from validation.peers.declare import expected_trait
 from validation.peers.run import run_measure, source_digest
-from validation.peers.spec import MeasureSpec, Name, Text, Trait
+from validation.peers.spec import MeasureSpec, Name, Text, Trait, normalise_measures
 from validation.peers.view_input import Seen
 
-__all__ = ["MeasureSpec", "Name", "Seen", "Text", "Trait", "run_measure", "source_digest"]
+__all__ = [
+    "MeasureSpec",
+    "Name",
+    "Seen",
+    "Text",
+    "Trait",
+    "expected_trait",
+    "normalise_measures",
+    "run_measure",
+    "source_digest",
+]

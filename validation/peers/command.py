@@ -1,4 +1,4 @@
-"""A measure that is a command: it reads image files and writes a CSV."""
+"""Runner of a measure that is a command: it reads image files and writes a CSV."""
 
 import shlex
 import subprocess
@@ -19,7 +19,7 @@ MAX_UINT16 = 2**16 - 1
 
 
 def check_command(command: str) -> None:
-    """Refuse a command that cannot be split into words, or does not name what it needs.
+    """Refuse a command that cannot be split into words, or lacks a placeholder that it needs.
 
     Raises:
         InputError: says which word is missing.
@@ -34,7 +34,7 @@ def check_command(command: str) -> None:
 
 
 def run_command(command: str, seen: Seen, *, where: str) -> pd.DataFrame:
-    """Return the table that a command writes to {out}, a CSV with the column `rock`.
+    """Table that a command writes to {out}, a CSV with the column `rock`.
 
     {image} becomes an 8-bit PNG, {labels} a 16-bit PNG, {range} an .npz with `xyz` (rows, cols, 3)
     in metres, or an empty word without range. No shell takes part.

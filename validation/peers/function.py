@@ -1,4 +1,4 @@
-"""A measure that is a function of Python: package.module:function."""
+"""Loader of a measure that is a Python function, `package.module:function`."""
 
 import importlib
 import sys
@@ -13,7 +13,7 @@ Function = Callable[..., object]
 
 @cache
 def load_function(target: str) -> Function:
-    """Return the function that `package.module:function` names, also of the current folder.
+    """Function that `package.module:function` names; modules of the current folder are found too.
 
     Raises:
         InputError: no such module or function, or a package that it needs is missing.

@@ -1,7 +1,7 @@
-"""`--measure` and `--rises-with` as a user writes them."""
+"""Parser of `--measure` and `--expected-trait`, and the trial of a measure before a run."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import PurePath
 from typing import cast, get_args
 
@@ -11,7 +11,7 @@ import numpy as np
 from validation.errors import InputError
 from validation.peers.adapters import ADAPTERS
 from validation.peers.command import check_command
-from validation.peers.declare import ATTRIBUTE
+from validation.peers.declare import VALUE, declared_traits
 from validation.peers.function import load_function
 from validation.peers.run import run_measure
 from validation.peers.spec import MeasureSpec, Trait
@@ -29,7 +29,7 @@ _BY_NAME: dict[str, Trait] = {
 
 
 def parse_measure(text: str) -> MeasureSpec:
-    """Return the measure that `[NAME=]package.module:function`, a command or a peer's name means.
+    """Specification from `[NAME=]package.module:function`, a command or the name of a peer.
 
     Raises:
         InputError: it is none of these, or a command without {labels} or {out}.
@@ -60,8 +60,8 @@ def _spec(name: str, *, function: str | None = None, command: str | None = None)
         raise InputError(f"--measure: {error}: put NAME= before it") from error
 
 
-def parse_rises_with(texts: Sequence[str]) -> dict[str, Trait]:
-    """Return {column: trait} from words COLUMN=TRAIT.
+def parse_traits(texts: Sequence[str]) -> dict[str, Trait]:
+    """Expected trait by column, from words COLUMN=TRAIT.
 
     Raises:
         InputError: no such trait.
@@ -71,45 +71,52 @@ def parse_rises_with(texts: Sequence[str]) -> dict[str, Trait]:
     for text in texts:
         column, _, trait = text.partition("=")
         if not column or trait not in traits:
-            raise InputError(f"--rises-with: expected COLUMN={'|'.join(traits)}, found {text!r}")
+            raise InputError(
+                f"--expected-trait: expected COLUMN={'|'.join(traits)}, found {text!r}"
+            )
         found[column] = cast(Trait, trait)
     return found
 
 
-def settle(spec: MeasureSpec, asked: dict[str, Trait]) -> MeasureSpec:
-    """Return the measure with what its columns rise with.
+def settle(spec: MeasureSpec, asked: Mapping[str, Trait]) -> MeasureSpec:
+    """Return the measure with the expected trait of each column that is judged.
 
-    It is run on a small view of two half balls: a measure that does not work is found out before
-    any scene is made, and its columns become known. What a column rises with is said by `asked`,
-    else by the function itself, else by a column's name where that is a trait's own. A column that
-    none names is stored, but not judged.
+    The measure is tried on a small view of two hemispheres, so that one that does not work is found
+    before any scene is made, and its columns become known. A column's trait is that of `asked`,
+    else of the suite, else of the function's own declaration, else of the column's name where it
+    names a trait (for the bare numbers of a function, the function's name). A column without a
+    trait is stored but not judged.
 
     Raises:
-        InputError: the measure fails on the probe, lacks a column that was named, or has none that
-            can be judged.
+        InputError: the measure fails on the trial view, lacks a column that was named, or has none
+            that can be judged.
     """
     table = run_measure(spec, _probe())
     columns = [str(name) for name in table.columns if name not in ("rock", "reason")]
-    declared = {name: _BY_NAME[name] for name in columns if name in _BY_NAME}
+    named = {name: _BY_NAME[name] for name in columns if name in _BY_NAME}
+    declared: Mapping[str, Trait] = {}
     if spec.function is not None:
-        declared |= getattr(load_function(spec.function), ATTRIBUTE, {})
-    declared |= spec.rises_with
-    declared |= {column: trait for column, trait in asked.items() if column in columns}
-    missing = [column for column in declared if column not in columns]
+        declared = declared_traits(load_function(spec.function))
+        own_name = spec.function.partition(":")[2]
+        if VALUE in columns and own_name in _BY_NAME:
+            named[VALUE] = _BY_NAME[own_name]
+    given = {column: trait for column, trait in asked.items() if column in columns}
+    traits = {**named, **declared, **spec.expected_trait, **given}
+    missing = [column for column in traits if column not in columns]
     if missing:
         raise InputError(
             f"--measure {spec.name}: expected the column {missing[0]}, found {', '.join(columns)}"
         )
-    if not declared:
+    if not traits:
         raise InputError(
-            f"--measure {spec.name}: expected --rises-with COLUMN={'|'.join(get_args(Trait))} for "
-            f"one of its columns, found none for {', '.join(columns)}"
+            f"--measure {spec.name}: expected --expected-trait COLUMN={'|'.join(get_args(Trait))} "
+            f"for one of its columns, found none for {', '.join(columns)}"
         )
-    return msgspec.structs.replace(spec, rises_with=declared)
+    return msgspec.structs.replace(spec, expected_trait=traits)
 
 
 def _probe() -> Seen:
-    """Return two half balls, 30 cm in radius, on a plane 3 m away, seen from straight above."""
+    """Trial view: two hemispheres of 30 cm radius on a plane 3 m away, seen from straight above."""
     focal_px = 300.0
     rows, cols = np.mgrid[0:_PROBE_SIDE_PX, 0 : 2 * _PROBE_SIDE_PX].astype(np.float64)
     depth_m = np.full(rows.shape, 3.0)

@@ -1,4 +1,4 @@
-"""What a measure from elsewhere is shown, and what it gives back."""
+"""Input and output records of a measure from elsewhere."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from validation.errors import InputError
 
 @dataclass(frozen=True, eq=False)
 class Seen:
-    """One view as a measure gets it."""
+    """One view as it is passed to a measure."""
 
     image: NDArray[np.float32]  # (rows, cols), 0..1
     labels: NDArray[np.int32]  # (rows, cols), 0 the ground
@@ -26,13 +26,13 @@ class Seen:
 
 
 def as_table(given: object, numbers: NDArray[np.int64], *, where: str) -> pd.DataFrame:
-    """Return what a measure gave as a table: `rock` and a column for each measure.
+    """Table of a measure's result: `rock` and a column for each quantity.
 
     `given` maps each column to one number a rock, in the order of `numbers`; an array alone is
     the column `value`; a table with the column `rock` may leave rocks out.
 
     Raises:
-        InputError: it is none of these, or holds what is no number.
+        InputError: it is none of these, or holds something other than numbers.
     """
     if isinstance(given, pd.DataFrame) and "rock" in given:
         columns: Mapping[str, object] = {str(name): given[name] for name in given}

@@ -109,7 +109,7 @@ def _columns(run: Run, experiment: Measured, records: pd.DataFrame) -> tuple[Col
     columns += [
         Column(spec.name, column, title_of(column), unit_of(column))
         for spec in run.suite.measures
-        for column in spec.rises_with
+        for column in spec.expected_trait
     ]
     return tuple(column for column in columns if column.measure in records.columns)
 

@@ -100,7 +100,7 @@ def _columns(
             if measure.column in RISES_WITH and not (flat and measure.needs_range):
                 yield method, measure.column, RISES_WITH[measure.column]
     for spec in suite.measures:
-        for column, trait in spec.rises_with.items():
+        for column, trait in spec.expected_trait.items():
             yield spec.name, column, trait
 
 

@@ -9,7 +9,7 @@ import msgspec
 from msgspec import Meta, Struct, field
 
 from validation.errors import InputError
-from validation.peers import MeasureSpec, Name, Text
+from validation.peers import MeasureSpec, Name, Text, normalise_measures
 from validation.suite.experiments import Experiment, SegmentationExperiment
 from validation.suite.gates import Gate, GateFile
 from validation.suite.inherit import resolve_likes
@@ -50,7 +50,8 @@ _T = TypeVar("_T")
 
 def _convert(text: str, kind: type[_T], *, where: str) -> _T:
     try:
-        return msgspec.convert(resolve_likes(tomllib.loads(text), where=where), kind)
+        table = normalise_measures(resolve_likes(tomllib.loads(text), where=where))
+        return msgspec.convert(table, kind)
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"{where}: expected TOML, found {error}") from error
     except msgspec.ValidationError as error:

@@ -1,6 +1,6 @@
-"""Peers: shape measures of other packages, on the masks that ours are measured on.
+"""Peer packages: their shape measures, evaluated on the same masks as ours.
 
-Each adapter names a few of the peer's numbers and what they rise with; nothing is tuned.
+Each adapter names a few of the peer's numbers and the traits they rise with; nothing is tuned.
 """
 
 _HERE = "validation.peers.adapters"

@@ -14,7 +14,7 @@ from validation.execution.work import run_unit
 from validation.kinds.scoring import score_values
 from validation.peers import MeasureSpec, Seen, run_measure, source_digest
 from validation.peers.adapters import ADAPTERS
-from validation.peers.parse import parse_measure, parse_rises_with, settle
+from validation.peers.parse import parse_measure, parse_traits, settle
 from validation.peers.view_input import as_table
 from validation.scores.expectations import claims_of
 from validation.suite.experiments import ShapesExperiment, YardExperiment
@@ -84,7 +84,7 @@ def seen() -> Seen:
 
 def test_a_function_and_what_it_says_of_itself(module, seen) -> None:
     spec = settle(parse_measure(f"{module}:boxes"), {})
-    assert (spec.name, spec.rises_with) == ("boxes", {"squareness": "form"})
+    assert (spec.name, spec.expected_trait) == ("boxes", {"squareness": "form"})
     table = run_measure(spec, seen)
     assert table["rock"].to_list() == [3, 7]
     assert table["squareness"].to_list() == [0.5, 1.0]
@@ -92,7 +92,7 @@ def test_a_function_and_what_it_says_of_itself(module, seen) -> None:
 
 def test_an_array_alone_is_a_value(module, seen) -> None:
     spec = settle(parse_measure(f"plain={module}:bare"), {"value": "angularity"})
-    assert (spec.name, spec.rises_with) == ("plain", {"value": "angularity"})
+    assert (spec.name, spec.expected_trait) == ("plain", {"value": "angularity"})
     assert run_measure(spec, seen)["value"].to_list() == [1.0, 1.0]
 
 
@@ -125,7 +125,7 @@ def test_the_source_counts_for_what_is_kept(command, tmp_path) -> None:
         ("true {labels} {out}", "CSV"),
         ("{module}:broken", "no such luck"),
         ("{module}:wrong", "one number for each of 2 rocks"),
-        ("{module}:bare", "--rises-with"),
+        ("{module}:bare", "--expected-trait"),
     ],
 )
 def test_what_does_not_work_is_found_out_before_any_work(text, said, module) -> None:
@@ -149,11 +149,11 @@ def test_what_is_no_number_a_rock_is_refused() -> None:
     assert fewer["a"][1] == 2.0
 
 
-def test_rises_with() -> None:
-    assert parse_rises_with(["a=form", "b=roundness"]) == {"a": "form", "b": "roundness"}
+def test_expected_traits_by_column() -> None:
+    assert parse_traits(["a=form", "b=roundness"]) == {"a": "form", "b": "roundness"}
     for text in ("a", "a=size", "=form"):
-        with pytest.raises(InputError, match="--rises-with"):
-            parse_rises_with([text])
+        with pytest.raises(InputError, match="--expected-trait"):
+            parse_traits([text])
 
 
 def test_peers_stand_beside_ours_on_the_same_masks() -> None:
@@ -219,4 +219,4 @@ def test_the_leaderboard_is_printed_and_written(tmp_path, capsys) -> None:
     assert said.split("\n\n")[0] in (out / "summary.md").read_text(encoding="utf-8")
     assert "scikit-image" in (out / "index.html").read_text(encoding="utf-8")
     scores = json.loads((out / "scores.json").read_text(encoding="utf-8"))
-    assert scores["spec"]["measure"][0]["rises_with"]["solidity"] == "roundness"
+    assert scores["spec"]["measure"][0]["expected_trait"]["solidity"] == "roundness"

@@ -17,7 +17,7 @@ mpl.use("Agg")
 
 import matplotlib.pyplot as plt
 
-from rockshape.measures import METHODS
+from rockshape.method import methods
 
 CAUSES = ("view", "distance", "light", "noise", "segmentation", "rest")
 NAMES = {
@@ -58,8 +58,8 @@ def columns() -> list[tuple[str, str, str]]:
     """Return (method, column, start of the scores' names) of every measure."""
     return [
         (method, m.column, f"{EXPERIMENT}.{'' if method == 'paper' else method + '.'}{m.column}.")
-        for method, measures in METHODS.items()
-        for m in measures
+        for method, record in methods().items()
+        for m in record.measures
     ]
 
 
@@ -132,7 +132,8 @@ def draw(scores: dict[str, dict[str, Any]], path: Path) -> None:
     """Draw each measure's variance as a stacked bar; what is negative goes to the left."""
     mpl.rcParams["hatch.linewidth"] = 0.6
     figure, axes = plt.subplots(1, 2, figsize=(11.5, 5.2), sharex=True, layout="constrained")
-    for axis, (method, measures) in zip(axes, METHODS.items(), strict=True):
+    for axis, (method, record) in zip(axes, methods().items(), strict=True):
+        measures = record.measures
         starts = [start for own, _, start in columns() if own == method]
         places = np.arange(len(measures))[::-1]
         right, left = np.zeros(len(measures)), np.zeros(len(measures))

@@ -18,7 +18,8 @@ from typing import Any
 from rockshape import pipeline, segmentation
 from rockshape.io import read_camera, read_image, read_range
 from rockshape.measurement import to_frame
-from rockshape.measures import METHODS, Measure
+from rockshape.measures import Measure
+from rockshape.method import methods
 from rockshape.observation import Observation
 from rockshape.rock import view as rock_view
 from synth.dataset.write import write_common, write_scene
@@ -138,7 +139,7 @@ def main() -> None:
     print(f"{cols}×{rows} pixels, {ROCKS} rocks")
     clock = Stopwatch()
     watch(clock)
-    for method in METHODS:
+    for method in methods():
         run(observation, method, rounds=args.rounds, clock=clock)
 
 

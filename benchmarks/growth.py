@@ -11,7 +11,7 @@ import time
 import numpy as np
 from made_frame import make_frame
 
-from rockshape.measures import METHODS
+from rockshape.method import methods
 from rockshape.observation import Observation
 from rockshape.pipeline import measure
 
@@ -41,7 +41,7 @@ def exponent(sizes: list[int], times: list[float]) -> float:
 def main() -> None:
     """Print both series and their exponents."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--method", choices=METHODS, default="paper")
+    parser.add_argument("--method", choices=tuple(methods()), default="paper")
     parser.add_argument("--largest", type=int, default=LARGE, help="side of the largest frame, px")
     args = parser.parse_args()
     seconds(side_px=256, rocks=4, radius_px=None, method=args.method)  # warms up

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from skimage.draw import polygon
 
 import rockshape
-from rockshape.measures import METHODS
+from rockshape.method import methods
 from synth.shapes.series import LONG_SIDE_PX, shape_series
 from synth.shapes.write import draw_series
 
@@ -77,12 +77,13 @@ def main() -> None:
         print(f"\nFigure {figure}: series {series}, knobs {', '.join(map(str, knobs))}\n")
         print("| measure | paper | long side, px | values | gaps, % | drawings in order |")
         print("| --- | --- | --- | --- | --- | --- |")
-        for method in METHODS:
+        for method in methods():
             at_size = {
                 side: values(figure, method=method, long_px=side, drawings=args.drawings)
                 for side in LONG_SIDES
             }
-            columns = [entry.column for entry in METHODS[method] if entry.column in SHOWN[figure]]
+            measures = methods()[method].measures
+            columns = [entry.column for entry in measures if entry.column in SHOWN[figure]]
             for column in columns:
                 for side, found in at_size.items():
                     rows = found[column]

@@ -7,6 +7,7 @@ from rockshape.camera.camera import Camera
 from rockshape.errors import InputError
 from rockshape.io.grey import to_grey
 from rockshape.measurement import Measurement
+from rockshape.method import Method
 from rockshape.observation import Observation
 from rockshape.pipeline import measure as measure_observation
 
@@ -17,7 +18,7 @@ def measure(
     range_m: ArrayLike | None = None,
     camera: Camera | None = None,
     labels: ArrayLike | None = None,
-    method: str = "paper",
+    method: str | Method = "paper",
     descriptors: bool = False,
 ) -> Measurement:
     """Measure the rocks in one image.
@@ -30,7 +31,7 @@ def measure(
     - camera: what took the image. Needed for z-depth; else found from the points.
     - labels: (rows, cols) of whole numbers, 0 the ground: rocks outlined already. Without labels
       rocks are found by range, by `robust` in the image too.
-    - method: which measures, one of `rockshape.measures.METHODS`.
+    - method: how rocks are found and measured, a name in `rockshape.method.methods()` or a Method.
     - descriptors: whether each rock gets the everyday numbers of its outline too.
 
     The result is a frozen record; `.rocks` holds a record for each rock, `.to_frame()` the table.
@@ -39,8 +40,8 @@ def measure(
     """
     numbers = None if labels is None else _whole(np.asarray(labels))
     points_m = None if range_m is None else _points(np.asarray(range_m), camera)
-    if numbers is None and points_m is None and (image is None or method == "paper"):
-        raise InputError("measure: expected range_m or labels to find the rocks by, found neither")
+    if numbers is None and points_m is None and image is None:
+        raise InputError("measure: expected image, range_m or labels, found none of them")
     if image is not None:
         grey = to_grey(np.asarray(image))
     else:

@@ -1,7 +1,18 @@
 """Errors that end a command with one line and an exit status."""
 
+from collections.abc import Iterable
+from difflib import get_close_matches
+
 
 class InputError(ValueError):
     """Unusable input: the message says what and where, what was expected and what was found."""
 
     exit_status = 2
+
+
+def unknown_name(what: str, found: str, known: Iterable[str]) -> InputError:
+    """Error for a name that a registry does not hold, with the nearest name that it does hold."""
+    names = list(known)
+    near = get_close_matches(found, names, n=1)
+    hint = f"; did you mean {near[0]!r}?" if near else ""
+    return InputError(f"{what}: expected one of {', '.join(names)}, found {found!r}{hint}")

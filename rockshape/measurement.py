@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from rockshape.ellipse.direct import Ellipse
 from rockshape.ellipsoid import Ellipsoid
-from rockshape.measures import METHODS, Reading
+from rockshape.measures import Measure, Reading
+from rockshape.method import Method, find_method
 from rockshape.outline.descriptors import Descriptors
 
 if TYPE_CHECKING:
@@ -74,7 +75,8 @@ class Rock:
 class Measurement:
     """What was found in one image."""
 
-    method: str
+    method: str  # its name
+    measures: tuple[Measure, ...]  # in the order of the table
     labels: NDArray[np.int32]  # (rows, cols), 0 the ground
     ground: "Plane | None"
     rocks: tuple[Rock, ...]  # in the order of their numbers
@@ -96,9 +98,15 @@ def _freeze(record: Rock | Measurement, name: str) -> None:
     object.__setattr__(record, name, view)
 
 
-def columns(method: str, *, descriptors: bool = False, flags: bool = False) -> tuple[str, ...]:
+def columns(
+    method: str | Method, *, descriptors: bool = False, flags: bool = False
+) -> tuple[str, ...]:
     """The table's columns for a method, in order, and after them those that are asked for."""
-    measured = tuple(measure.column for measure in METHODS[method])
+    return _columns(find_method(method).measures, descriptors=descriptors, flags=flags)
+
+
+def _columns(measures: tuple[Measure, ...], *, descriptors: bool, flags: bool) -> tuple[str, ...]:
+    measured = tuple(measure.column for measure in measures)
     described = tuple(DESCRIPTORS.values()) if descriptors else ()
     return (*PLACE, *AXES, *measured, "reason", *described, *(FLAGS if flags else ()))
 
@@ -113,7 +121,7 @@ def to_frame(measurement: Measurement, *, flags: bool = False) -> "pd.DataFrame"
     """
     import pandas as pd  # noqa: PLC0415 - it takes as long as all else
 
-    names = columns(measurement.method, descriptors=measurement.described, flags=flags)
+    names = _columns(measurement.measures, descriptors=measurement.described, flags=flags)
     told = {one.number: one for one in measurement.found}
     rows = [
         (*_row(rock), *(_found(told.get(rock.number)) if flags else ()))

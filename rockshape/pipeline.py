@@ -7,12 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.camera.camera import Camera
-from rockshape.ellipse.direct import Ellipse
-from rockshape.ellipsoid import Ellipsoid
 from rockshape.errors import InputError
 from rockshape.ground.pixel_noise import RangeNoise, estimate_range_noise
 from rockshape.measurement import Measurement, Rock
-from rockshape.measures import METHODS
+from rockshape.method import Method, find_method
 from rockshape.observation import Observation
 from rockshape.outline.descriptors import describe_smooth
 from rockshape.rock.blas_threads import one_blas_thread
@@ -22,26 +20,25 @@ from rockshape.rock.visibility import visible_fraction
 
 if TYPE_CHECKING:
     from rockshape.ground import Plane
-    from rockshape.segmentation import FoundRock, Variant
+    from rockshape.segmentation import FoundRock
 
 
 def measure(
     observation: Observation,
     *,
-    method: str = "paper",
+    method: str | Method = "paper",
     labels: NDArray[np.int32] | None = None,
     descriptors: bool = False,
 ) -> Measurement:
     """Find the rocks in an observation and measure each.
 
     With labels, (rows, cols) of whole numbers with 0 the ground, nothing is segmented; of a number
-    in several pieces the largest is measured. The published way needs range to find rocks by:
-    without labels and range `paper` returns none. With descriptors, each rock gets the everyday
+    in several pieces the largest is measured. With descriptors, each rock gets the everyday
     numbers of its outline too.
-    Raises InputError for an unknown method or labels of another shape.
+    Raises: InputError for an unknown method, labels of another shape, and without labels where the
+    method finds rocks by range and there is none.
     """
-    if method not in METHODS:
-        raise InputError(f"method: expected one of {', '.join(METHODS)}, found {method!r}")
+    method = find_method(method)
     shape = observation.image.shape
     if labels is not None and labels.shape != shape:
         raise InputError(f"labels: expected {shape} as the image has, found {labels.shape}")
@@ -55,7 +52,8 @@ def measure(
             for patch in find_patches(scene.labels)
         )
     return Measurement(
-        method=method,
+        method=method.name,
+        measures=method.measures,
         labels=scene.labels,
         ground=scene.ground,
         rocks=rocks,
@@ -81,23 +79,19 @@ def _whole(shape: tuple[int, ...]) -> tuple[slice, slice]:
 
 
 def _find(
-    observation: Observation, method: str, labels: NDArray[np.int32] | None
+    observation: Observation, method: Method, labels: NDArray[np.int32] | None
 ) -> "tuple[_Scene, tuple[FoundRock, ...]]":
     """Where the rocks are and what they stand on; with labels, the latter alone."""
-    # takes half a second to import, and outlines without range need none of it
-    from rockshape.segmentation import ground_under, segment  # noqa: PLC0415
-
-    variant: Variant = "robust" if method == "robust" else "paper"
     points_m, noise = observation.points_m, None
     found: tuple[FoundRock, ...] = ()
     with one_blas_thread():
         if labels is None:
-            segmentation = segment(observation, variant=variant)
+            segmentation = method.segment(observation)
             labels, ground, frame = segmentation.labels, segmentation.ground, segmentation.frame
             found = segmentation.found
         else:
-            ground, frame = ground_under(observation, variant=variant), _whole(labels.shape)
-        if method == "robust" and ground is not None and points_m is not None:
+            ground, frame = method.ground(observation), _whole(labels.shape)
+        if ground is not None and points_m is not None:
             noise = estimate_range_noise(points_m, ground, labels != 0)
     scene = _Scene(
         labels=labels,
@@ -110,11 +104,11 @@ def _find(
     return scene, found
 
 
-def _measure_rock(scene: _Scene, patch: Patch, *, method: str, described: bool) -> Rock:
+def _measure_rock(scene: _Scene, patch: Patch, *, method: Method, described: bool) -> Rock:
     rows, cols = patch.window
     view = _view_rock(scene, patch)
-    ellipse, ellipsoid = _fits(view, method)
-    readings = {measure.column: measure.read(view) for measure in METHODS[method]}
+    fits = method.fits(view)
+    readings = {measure.column: measure.read(view) for measure in method.measures}
     pixel_rows, pixel_cols = np.nonzero(patch.mask)
     return Rock(
         number=patch.number,
@@ -124,20 +118,13 @@ def _measure_rock(scene: _Scene, patch: Patch, *, method: str, described: bool) 
         width_px=cols.stop - cols.start,
         height_px=rows.stop - rows.start,
         truncated=view.truncated,
-        visible_fraction=visible_fraction(patch.number, ellipse, scene.labels, scene.points_m),
+        visible_fraction=visible_fraction(patch.number, fits.ellipse, scene.labels, scene.points_m),
         outline_px=view.outline_px,
-        ellipse=ellipse,
-        ellipsoid=ellipsoid,
+        ellipse=fits.ellipse,
+        ellipsoid=fits.ellipsoid,
         readings=readings,
         descriptors=describe_smooth(view.smooth_outline_px) if described else None,
     )
-
-
-def _fits(view: RockView, method: str) -> tuple[Ellipse | None, Ellipsoid | None]:
-    """The ellipse and ellipsoid that a method's measures are of."""
-    if method == "robust":
-        return view.form_ellipse, view.held_ellipsoid
-    return view.ellipse, None if view.ellipsoid is None else view.ellipsoid.ellipsoid
 
 
 def _view_rock(scene: _Scene, patch: Patch) -> RockView:

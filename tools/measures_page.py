@@ -9,7 +9,8 @@ from inspect import cleandoc
 from pathlib import Path
 from types import ModuleType
 
-from rockshape.measures import METHODS, Measure
+from rockshape.measures import Measure
+from rockshape.method import methods
 
 PAGE = Path(__file__).parent.parent / "docs" / "measures.md"
 FIGURES = "images/measures"
@@ -79,8 +80,9 @@ def sections_of(module: ModuleType) -> dict[str, str]:
 
 def _modules() -> dict[ModuleType, list[tuple[str, Measure]]]:
     """The measures' modules with the readings that each has, in the order of the robust table."""
-    readings = [(name, entry) for name, entries in METHODS.items() for entry in entries]
-    order = [entry.evaluate.__module__ for entry in (*METHODS["robust"], *METHODS["paper"])]
+    readings = [(name, entry) for name, method in methods().items() for entry in method.measures]
+    both = (*methods()["robust"].measures, *methods()["paper"].measures)
+    order = [entry.evaluate.__module__ for entry in both]
     readings.sort(key=lambda reading: order.index(reading[1].evaluate.__module__))
     found: dict[ModuleType, list[tuple[str, Measure]]] = {}
     for name, entry in readings:
@@ -135,7 +137,7 @@ def _section(module: ModuleType, readings: list[tuple[str, Measure]]) -> str:
         points = "range" if entry.needs_range else "outline"
         lines.append(
             f"| {method} | `{entry.column}` | {entry.unit or '–'} | {entry.paper_name or '–'} "
-            f"| {entry.fewest} {points} |"
+            f"| {entry.min_points} {points} |"
         )
     lines.append("")
     for heading in HEADINGS:

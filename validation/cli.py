@@ -11,7 +11,7 @@ from typing import NoReturn, get_args
 import msgspec
 from tqdm import tqdm
 
-from rockshape.measures import METHODS
+from rockshape.method import methods
 from validation.errors import InputError
 from validation.execution.compare import (
     MARGIN,
@@ -66,7 +66,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     run_parser.add_argument(
         "--method",
         action="append",
-        choices=tuple(METHODS),
+        choices=tuple(methods()),
         help="measure by this method alone, and hold the gates on it; may be repeated "
         "(default: as the suite says)",
     )

@@ -15,7 +15,7 @@ from rockshape.io.files import check_writable, write_bytes
 from rockshape.io.images import LABEL_IMAGES, PICTURES
 from rockshape.io.tables import TABLES, write_table
 from rockshape.measurement import Measurement, to_frame
-from rockshape.measures import METHODS
+from rockshape.method import methods
 from rockshape.observation import Observation
 from rockshape.pipeline import measure
 from rockshape.report.overlay import overlay
@@ -73,7 +73,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help="rocks found already: whole numbers, 0 ground; or COCO",
     )
-    parser.add_argument("--method", choices=METHODS, default="paper", help="which measures")
+    parser.add_argument(
+        "--method", choices=tuple(methods()), default="paper", help="which measures"
+    )
     parser.add_argument(
         "--descriptors",
         action="store_true",
@@ -112,10 +114,6 @@ def run(args: argparse.Namespace) -> int:
         raise InputError(
             f"{args.labels}: expected numbers up to {MAX_UINT16} for --labels-out, "
             f"found {labels.max()}"
-        )
-    if points_m is None and labels is None and args.method != "robust":
-        raise InputError(
-            "measure: expected --range or --labels to find the rocks by, found neither"
         )
     observation = Observation(image=image, points_m=points_m, camera=camera)
     measurement = measure(

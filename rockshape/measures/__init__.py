@@ -10,7 +10,7 @@ from rockshape.measures import (
     sphericity_2d,
     sphericity_3d,
 )
-from rockshape.measures.measure import Measure, Reading, Reason
+from rockshape.measures.measure import Measure, Reading, Reason, Trait
 
 PAPER = (
     axis_ratio.PAPER,
@@ -31,6 +31,5 @@ ROBUST = (
     sphericity_3d.ROBUST,
     angularity_3d.ROBUST,
 )
-METHODS: dict[str, tuple[Measure, ...]] = {"paper": PAPER, "robust": ROBUST}
 
-__all__ = ["METHODS", "PAPER", "ROBUST", "Measure", "Reading", "Reason"]
+__all__ = ["PAPER", "ROBUST", "Measure", "Reading", "Reason", "Trait"]

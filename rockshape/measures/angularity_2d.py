@@ -106,8 +106,11 @@ PAPER = Measure(
     paper_name="2-D angularity",
     unit="°",
     needs_range=False,
-    fewest=2 * BETA - 1,
+    min_points=2 * BETA - 1,
     evaluate=_evaluate,
+    expected_trait="angularity",
+    view_truth="outline_angularity",
+    value_range=(0.0, 180.0),
 )
 
 ROBUST = Measure(
@@ -116,7 +119,10 @@ ROBUST = Measure(
     paper_name="2-D angularity",
     unit="",
     needs_range=False,
-    fewest=2 * BETA - 1,
+    min_points=2 * BETA - 1,
     evaluate=_read_robust,
     whole=True,
+    expected_trait="angularity",
+    view_truth="outline_angularity",
+    value_range=(0.0, float(np.pi)),
 )

@@ -95,8 +95,9 @@ PAPER = Measure(
     paper_name="3-D angularity",
     unit="1/m",
     needs_range=True,
-    fewest=MIN_POINTS,
+    min_points=MIN_POINTS,
     evaluate=_evaluate,
+    expected_trait="angularity",
 )
 ROBUST = Measure(
     column="angularity_3d",
@@ -104,6 +105,7 @@ ROBUST = Measure(
     paper_name="3-D angularity",
     unit="",
     needs_range=True,
-    fewest=MIN_FACING,
+    min_points=MIN_FACING,
     evaluate=_evaluate_relief,
+    expected_trait="angularity",
 )

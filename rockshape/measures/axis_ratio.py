@@ -57,8 +57,12 @@ PAPER = Measure(
     paper_name="eccentricity",
     unit="",
     needs_range=False,
-    fewest=MIN_POINTS,
+    min_points=MIN_POINTS,
     evaluate=_evaluate,
+    expected_trait="form",
+    view_truth="outline_axis_ratio",
+    equals=("axis_ratio", "outline_axis_ratio"),
+    value_range=(0.0, 1.0),
 )
 
 ROBUST = Measure(
@@ -67,6 +71,10 @@ ROBUST = Measure(
     paper_name="eccentricity",
     unit="",
     needs_range=False,
-    fewest=MIN_POINTS,
+    min_points=MIN_POINTS,
     evaluate=_read_robust,
+    expected_trait="form",
+    view_truth="outline_axis_ratio",
+    equals=("axis_ratio", "outline_axis_ratio"),
+    value_range=(0.0, 1.0),
 )

@@ -81,8 +81,10 @@ PAPER = Measure(
     paper_name="ellipse fitting error",
     unit="px²",
     needs_range=False,
-    fewest=MIN_POINTS,
+    min_points=MIN_POINTS,
     evaluate=_evaluate,
+    expected_trait="angularity",
+    view_truth="outline_angularity",
 )
 
 ROBUST = Measure(
@@ -91,7 +93,9 @@ ROBUST = Measure(
     paper_name="ellipse fitting error",
     unit="",
     needs_range=False,
-    fewest=MIN_POINTS,
+    min_points=MIN_POINTS,
     evaluate=_read_robust,
     whole=True,
+    expected_trait="angularity",
+    view_truth="outline_angularity",
 )

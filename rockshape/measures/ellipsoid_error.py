@@ -86,8 +86,9 @@ PAPER = Measure(
     paper_name="ellipsoid fitting error",
     unit="m²",
     needs_range=True,
-    fewest=MIN_POINTS,
+    min_points=MIN_POINTS,
     evaluate=_evaluate,
+    expected_trait="angularity",
 )
 ROBUST = Measure(
     column="ellipsoid_error",
@@ -95,6 +96,7 @@ ROBUST = Measure(
     paper_name="ellipsoid fitting error",
     unit="",
     needs_range=True,
-    fewest=MIN_POINTS,
+    min_points=MIN_POINTS,
     evaluate=_evaluate_held,
+    expected_trait="angularity",
 )

@@ -43,7 +43,11 @@ ROBUST = Measure(
     paper_name="",
     unit="",
     needs_range=False,
-    fewest=MIN_POINTS,
+    min_points=MIN_POINTS,
     evaluate=_read_robust,
     whole=True,
+    expected_trait="roundness",
+    view_truth="outline_roundness",
+    equals=("outline_roundness", "roundness"),
+    value_range=(0.0, 1.0),
 )

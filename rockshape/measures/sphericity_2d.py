@@ -63,8 +63,12 @@ PAPER = Measure(
     paper_name="2-D sphericity",
     unit="",
     needs_range=False,
-    fewest=1,
+    min_points=1,
     evaluate=_evaluate,
+    expected_trait="form",
+    view_truth="outline_axis_ratio",
+    equals=("rectangle_ratio",),
+    value_range=(0.0, 1.0),
 )
 
 ROBUST = Measure(
@@ -73,7 +77,11 @@ ROBUST = Measure(
     paper_name="2-D sphericity",
     unit="",
     needs_range=False,
-    fewest=1,
+    min_points=1,
     evaluate=_read_robust,
     whole=True,
+    expected_trait="form",
+    view_truth="outline_axis_ratio",
+    equals=("rectangle_ratio",),
+    value_range=(0.0, 1.0),
 )

@@ -57,8 +57,11 @@ PAPER = Measure(
     paper_name="3-D sphericity",
     unit="",
     needs_range=True,
-    fewest=MIN_POINTS,
+    min_points=MIN_POINTS,
     evaluate=_evaluate,
+    expected_trait="form",
+    equals=("maximum_projection_sphericity",),
+    value_range=(0.0, 1.0),
 )
 ROBUST = Measure(
     column="sphericity_3d",
@@ -66,6 +69,9 @@ ROBUST = Measure(
     paper_name="3-D sphericity",
     unit="",
     needs_range=True,
-    fewest=MIN_POINTS,
+    min_points=MIN_POINTS,
     evaluate=_evaluate_held,
+    expected_trait="form",
+    equals=("maximum_projection_sphericity",),
+    value_range=(0.0, 1.0),
 )

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.measurement import AXES, DESCRIPTORS, Measurement, to_frame
-from rockshape.measures import METHODS
 from rockshape.report.overlay import overlay
 
 DIGITS = 4
@@ -19,7 +18,7 @@ def render_page(title: str, image: NDArray[np.float32], measurement: Measurement
     """HTML that shows the image, (rows, cols) from 0 to 1, with its rocks and their table."""
     picture = cv2.cvtColor(overlay(image, measurement), cv2.COLOR_RGB2BGR)
     jpeg = cv2.imencode(".jpg", picture, [cv2.IMWRITE_JPEG_QUALITY, 88])[1]
-    measures = METHODS[measurement.method]
+    measures = measurement.measures
     frame = to_frame(measurement)
     described = DESCRIPTORS.values() if measurement.described else ()
     numbers = ["area_px", *AXES, *(measure.column for measure in measures), *described]

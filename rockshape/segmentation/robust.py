@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from rockshape.errors import InputError
 from rockshape.ground import Ground, Plane, fit_ground, fit_plane
 from rockshape.observation import Observation
 from rockshape.rock.visibility import measured_frame
@@ -18,14 +19,20 @@ from rockshape.segmentation.result import Branch, FoundRock, Segmentation, Varia
 
 Labels = NDArray[np.int32]
 
+NO_RANGE = (
+    "measure: expected range to find rocks by (range_m, --range) or rocks outlined already "
+    "(labels, --labels), found neither; without range, the method robust finds rocks in the image"
+)
+
 
 def segment(observation: Observation, *, variant: Variant) -> Segmentation:
     """Find the rocks of an observation.
 
-    `paper`: the 3-sigma plane and the tops, sides and bottoms of the heights above it; without
-    range no rock is found. `robust`: the ground that holds among rocks, regions that stand on it
-    in units of the noise, cut at valleys and jumps of depth, then what the image alone shows, and
-    all outlines moved to the image's edges where they are surer than the range's.
+    `paper`: the 3-sigma plane and the tops, sides and bottoms of the heights above it. `robust`:
+    the ground that holds among rocks, regions that stand on it in units of the noise, cut at
+    valleys and jumps of depth, then what the image alone shows, and all outlines moved to the
+    image's edges where they are surer than the range's.
+    Raises: InputError for `paper` without range.
     """
     if variant == "paper":
         return _by_paper(observation)
@@ -42,8 +49,10 @@ def ground_under(observation: Observation, *, variant: Variant) -> Plane | None:
 
 def _by_paper(observation: Observation) -> Segmentation:
     points_m = observation.points_m
-    ground = None if points_m is None else fit_plane(points_m)
-    if ground is None or points_m is None:
+    if points_m is None:
+        raise InputError(NO_RANGE)
+    ground = fit_plane(points_m)
+    if ground is None:
         return _nothing(observation)
     height_m = ground.height_m(points_m)
     labels = segment_heights(height_m, sigma_m=ground.sigma_m)

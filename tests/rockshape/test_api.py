@@ -93,8 +93,8 @@ def test_images_of_every_kind_are_drawn_alike(image: np.ndarray) -> None:
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        ({}, "range_m or labels"),
-        ({"image": np.zeros((9, 9))}, "range_m or labels"),
+        ({}, "image, range_m or labels"),
+        ({"image": np.zeros((9, 9))}, "range to find rocks by"),
         ({"range_m": np.ones((9, 9))}, "expected a camera"),
         ({"range_m": np.ones((9, 9, 4))}, "found (9, 9, 4)"),
         ({"range_m": np.ones(9)}, "found (9,)"),

@@ -14,7 +14,7 @@ import tifffile
 from rockshape.cli import main
 from rockshape.io import read_image, read_labels
 from rockshape.measurement import DESCRIPTORS, columns, to_frame
-from rockshape.measures import METHODS
+from rockshape.method import methods
 from rockshape.observation import Observation
 from rockshape.pipeline import measure
 from tests.paths import GRAINS_IMAGE, GRAINS_LABELS, MARS_IMAGE, MARS_RANGE
@@ -103,7 +103,7 @@ def test_the_report_is_one_page_with_every_rock(tmp_path: Path) -> None:
     assert "http" not in text
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", methods())
 def test_the_report_shows_the_columns_of_its_method(tmp_path: Path, method: str) -> None:
     page, table = tmp_path / "page.html", tmp_path / "t.csv"
     arguments = ["measure", str(MARS_IMAGE), "--range", str(MARS_RANGE), "--method", method]
@@ -112,7 +112,7 @@ def test_the_report_shows_the_columns_of_its_method(tmp_path: Path, method: str)
     text = page.read_text()
     written = pd.read_csv(table)
     assert list(written.columns) == list(columns(method, descriptors=True))
-    for column in (*(entry.column for entry in METHODS[method]), *DESCRIPTORS.values()):
+    for column in (*(entry.column for entry in methods()[method].measures), *DESCRIPTORS.values()):
         assert text.count(f"<th>{column}</th>") == 1
     assert f"method <code>{method}</code>" in text
     assert "“”" not in text  # a measure that the paper has not has no name there
@@ -343,7 +343,7 @@ def test_labels_beyond_16_bits_are_refused_before_anything_is_written(
 
 
 def test_neither_range_nor_labels(capsys: pytest.CaptureFixture[str]) -> None:
-    fails_in_one_line(capsys, ["measure", str(MARS_IMAGE)], "--range or --labels")
+    fails_in_one_line(capsys, ["measure", str(MARS_IMAGE)], "(range_m, --range)")
 
 
 def test_range_that_is_nan_everywhere_still_measures_the_flat_columns(tmp_path: Path) -> None:

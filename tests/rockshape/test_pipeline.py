@@ -8,7 +8,8 @@ from scipy.spatial.transform import Rotation
 from rockshape.errors import InputError
 from rockshape.io import read_image, read_labels, read_range
 from rockshape.measurement import DESCRIPTORS, Measurement, columns, to_frame
-from rockshape.measures import METHODS, PAPER
+from rockshape.measures import PAPER
+from rockshape.method import methods
 from rockshape.observation import Observation
 from rockshape.outline.descriptors import Descriptors
 from rockshape.pipeline import measure
@@ -204,10 +205,12 @@ def test_every_descriptor_has_a_column() -> None:
 
 
 def test_every_method_names_each_column_once() -> None:
-    for method, measures in METHODS.items():
+    for method, record in methods().items():
         names = columns(method)
         assert len(set(names)) == len(names)
-        assert [entry.column for entry in measures] == list(names[-1 - len(measures) : -1])
+        assert [entry.column for entry in record.measures] == list(
+            names[-1 - len(record.measures) : -1]
+        )
 
 
 @pytest.fixture(scope="module")

@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 from rockshape.cli import main
-from rockshape.measures import METHODS
+from rockshape.method import methods
 from synth.render import backends
 from validation.execution.units import SceneUnit, describe, units_of
 from validation.report.scores_json import FORMAT
@@ -91,7 +91,7 @@ def test_the_records_hold_truth_and_measures_of_every_rock(runs) -> None:
     folder, _, _ = runs
     records = pd.read_parquet(folder / "one" / "results.parquet")
     rocks = records[(records["kind"] == "yard") & (records["status"] != "extra")]
-    assert len(rocks) == 2 * 2 * len(METHODS)  # rocks, views
+    assert len(rocks) == 2 * 2 * len(methods())  # rocks, views
     assert rocks["truth_maximum_projection_sphericity"].between(0, 1).all()
     found = rocks[rocks["status"] == "matched"]
     assert len(found) == len(rocks)
@@ -100,7 +100,7 @@ def test_the_records_hold_truth_and_measures_of_every_rock(runs) -> None:
     assert paper["ellipsoid_error_m2"].notna().all()
     assert robust["ellipsoid_error"].notna().all()
     shapes = records[records["kind"] == "shapes"]
-    assert len(shapes) == 2 * 4 * len(METHODS)  # series, shapes
+    assert len(shapes) == 2 * 4 * len(methods())  # series, shapes
     assert (shapes["iou"] == 1.0).all()
     assert shapes["reason"].eq("no range").all()
 

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from rockshape.measures import METHODS
+from rockshape.method import methods
 from validation.kinds.design.outlines import TRUTH_OF
 from validation.kinds.scoring import gate_scores
 from validation.suite.experiments import DesignExperiment
@@ -36,11 +36,11 @@ def fabricated(suite: Suite, *, rng: np.random.Generator) -> pd.DataFrame:
     truths = rng.uniform(0.4, 0.9, size=(2, seen.max() + 1))
     records["truth_outline_axis_ratio"] = truths[0][seen]
     records["truth_outline_roundness"] = truths[1][seen]
-    for measures in METHODS.values():
-        for one in measures:
-            records[one.column] = records[TRUTH_OF[one.column]] if one.column in TRUTH_OF else 0.7
+    every = [one for method in methods().values() for one in method.measures]
+    for one in every:
+        records[one.column] = records[TRUTH_OF[one.column]] if one.column in TRUTH_OF else 0.7
     noisy = records["series"] == "noisy"
-    columns = list(dict.fromkeys(one.column for measures in METHODS.values() for one in measures))
+    columns = list(dict.fromkeys(one.column for one in every))
     chance = 0.01 * rng.standard_normal((int(noisy.sum()), len(columns)))
     records.loc[noisy, columns] = records.loc[noisy, columns] + chance
     return records

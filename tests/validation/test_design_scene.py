@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 from rockshape.measurement import to_frame
-from rockshape.measures import METHODS
+from rockshape.method import methods
 from rockshape.observation import Observation
 from rockshape.pipeline import measure
 from validation.errors import InputError
@@ -105,7 +105,7 @@ def test_clean_values_know_nothing_of_light(experiment) -> None:
     (one, camera), (other, _) = next(taken), next(taken)
     assert (one.sun, other.sun, one.view, other.view) == (0, 1, 0, 0)
     assert not np.array_equal(one.image, other.image)
-    for method in METHODS:
+    for method in methods():
         tables = [
             to_frame(
                 measure(
@@ -128,7 +128,7 @@ def test_leaving_out_what_is_no_rock_changes_no_value(experiment) -> None:
     labels = true_rocks(seen, shot.instances, min_iou=0.5)
     alone = to_frame(measure(seen, method="paper", labels=labels)).set_index("rock")
     assert 0 < len(alone) <= len(whole)
-    columns = [m.column for m in METHODS["paper"]]
+    columns = [m.column for m in methods()["paper"].measures]
     pd.testing.assert_frame_equal(alone[columns], whole.loc[alone.index, columns])
 
 
@@ -154,9 +154,9 @@ def test_a_cell_is_a_function_of_its_spec(experiment) -> None:
 def test_scores_gates_checks_and_reports_take_a_design(small, experiment, result, tmp_path) -> None:
     values = score_values(small, result.records)
     assert set(values) == score_names(small)
-    for method, measures in METHODS.items():
+    for method, record in methods().items():
         prefix = "d." if method == "paper" else f"d.{method}."
-        shares = [values[f"{prefix}{measures[0].column}.share_{cause}"] for cause in CAUSES]
+        shares = [values[f"{prefix}{record.measures[0].column}.share_{cause}"] for cause in CAUSES]
         assert sum(shares) == pytest.approx(1.0, rel=1e-9)
     gates = [
         Gate(score="d.axis_ratio.cv", at_most=0.5, reason="a"),

@@ -1,10 +1,11 @@
 """Methods side by side: one table, and scores that say whose they are."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
 
-from rockshape.measures import METHODS
+from rockshape.method import methods, registered
 from validation.execution.units import DrawingUnit
 from validation.execution.work import run_unit
 from validation.kinds.scoring import definitions, score_names, score_values
@@ -17,20 +18,21 @@ GATE = Gate(score="s.sphericity.axis_ratio.tau", at_least=0.0, reason="r")
 
 
 @pytest.fixture
-def suite(monkeypatch) -> Suite:
+def suite() -> Iterator[Suite]:
     """Drawings measured by the paper's method and by one whose axis ratio is upside down."""
-    (ratio,) = (measure for measure in METHODS["paper"] if measure.column == "axis_ratio")
+    paper = methods()["paper"]
+    (ratio,) = (one for one in paper.measures if one.column == "axis_ratio")
     turned = replace(ratio, evaluate=lambda rock: 1.0 / ratio.evaluate(rock))
-    monkeypatch.setitem(METHODS, "turned", (turned,))
-    drawings = ShapesExperiment(
-        name="s",
-        title="S",
-        seed=10,
-        drawings=1,
-        methods=("paper", "turned"),
-        series=("sphericity",),
-    )
-    return Suite(name="s", title="S", experiments=(drawings,), gates=(GATE,))
+    with registered(replace(paper, name="turned", measures=(turned,))):
+        drawings = ShapesExperiment(
+            name="s",
+            title="S",
+            seed=10,
+            drawings=1,
+            methods=("paper", "turned"),
+            series=("sphericity",),
+        )
+        yield Suite(name="s", title="S", experiments=(drawings,), gates=(GATE,))
 
 
 def test_each_method_has_its_rows_and_its_scores(suite) -> None:
@@ -54,7 +56,7 @@ def test_drawings_make_no_claim_that_needs_range() -> None:
     drawings = ShapesExperiment(name="s", title="S", seed=1, drawings=1)
     yard = YardExperiment(name="y", title="Y", seed=1, scenes=1, varied=("angularity", "form"))
     suite = Suite(name="s", title="S", experiments=(drawings, yard), gates=(GATE,))
-    ranged = {m.column for measures in METHODS.values() for m in measures if m.needs_range}
+    ranged = {m.column for one in methods().values() for m in one.measures if m.needs_range}
     assert not ranged & {claim.measure for claim in claims_of(suite, drawings)}
     assert ranged <= {claim.measure for claim in claims_of(suite, yard)}
 

@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct, field
 
-from rockshape.measures import METHODS
+from rockshape.method import methods
 
 Name = Annotated[str, Meta(pattern="^[a-z][a-z0-9_-]*$")]
 Text = Annotated[str, Meta(min_length=1)]
@@ -29,7 +29,7 @@ class MeasureSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True)
         """Check that there is one way to measure, and that no method has the name."""
         if (self.function is None) == (self.command is None):
             raise ValueError(f"measure {self.name!r}: expected a function or a command")
-        if self.name in METHODS:
+        if self.name in methods():
             raise ValueError(f"measure {self.name!r}: expected a name that no method has")
 
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import pandas as pd
 
-from rockshape.measures import METHODS
+from rockshape.method import methods
 from validation.execution.run import Run
 from validation.records.pictures import Portrait
 from validation.report.rank_error import farthest
@@ -67,7 +67,7 @@ def _measured(run: Run) -> pd.DataFrame:
     What is no true rock counts once: measures from elsewhere stand on the first method's masks.
     """
     records = run.records
-    again = records["status"].eq("extra") & ~records["method"].isin(list(METHODS))
+    again = records["status"].eq("extra") & ~records["method"].isin(list(methods()))
     return records[~again & records["kind"].ne("segmentation")]
 
 
@@ -115,7 +115,9 @@ def choose(run: Run, budget_bytes: float) -> dict[RockKey, tuple[Portrait, ...]]
         return found
 
     chosen: dict[RockKey, tuple[Portrait, ...]] = {}
-    columns = sum(len(METHODS[name]) for name in METHODS) + 4 * len(run.suite.measures)
+    columns = sum(len(method.measures) for method in methods().values()) + 4 * len(
+        run.suite.measures
+    )
     for key in _candidates(run):
         if key in chosen:
             continue

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 from markupsafe import Markup
 
-from rockshape.measures import METHODS
+from rockshape.method import methods
 from validation.execution.run import Run
 from validation.records.pictures import Portrait
 from validation.report.embed import symbols
@@ -103,7 +103,7 @@ def _columns(run: Run, experiment: Measured, records: pd.DataFrame) -> tuple[Col
     columns = [
         Column(method, measure.column, measure.title, measure.unit)
         for method in experiment.methods
-        for measure in METHODS[method]
+        for measure in methods()[method].measures
         if not (flat and measure.needs_range)
     ]
     columns += [

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from markupsafe import Markup
 
-from rockshape.measures import METHODS
+from rockshape.method import methods
 from validation.execution.run import Run
 from validation.report.embedded_views import ShownPicture, shown_pictures
 from validation.report.line_chart import Line, line_chart
@@ -39,7 +39,7 @@ def _columns(experiment: YardExperiment) -> dict[str, dict[str, str]]:
     """Return {measure's title: {method: column}}, in the order of the methods' measures."""
     columns: dict[str, dict[str, str]] = {}
     for method in experiment.methods:
-        for measure in METHODS[method]:
+        for measure in methods()[method].measures:
             columns.setdefault(measure.title, {})[method] = measure.column
     return columns
 

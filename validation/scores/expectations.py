@@ -6,7 +6,7 @@ A column without a claim here is measured and stored, but not judged.
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from rockshape.measures import METHODS
+from rockshape.method import methods
 from validation.peers import Trait
 from validation.suite.experiments import (
     DesignExperiment,
@@ -96,7 +96,7 @@ def _columns(
     """Yield (method, column, trait), the package's own methods first."""
     flat = not isinstance(experiment, YardExperiment)
     for method in experiment.methods:
-        for measure in METHODS[method]:
+        for measure in methods()[method].measures:
             if measure.column in RISES_WITH and not (flat and measure.needs_range):
                 yield method, measure.column, RISES_WITH[measure.column]
     for spec in suite.measures:

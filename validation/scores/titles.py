@@ -1,6 +1,6 @@
 """Names of measures for reading, from the registry of the measures themselves."""
 
-from rockshape.measures import METHODS
+from rockshape.method import measure_of, methods
 from validation.scores.expectations import Claim
 
 REFERENCE = "paper"  # the method whose name scores and titles leave out
@@ -8,16 +8,13 @@ REFERENCE = "paper"  # the method whose name scores and titles leave out
 
 def title_of(column: str) -> str:
     """Return the title of a measure's column, or the column itself where no measure has it."""
-    for measures in METHODS.values():
-        for measure in measures:
-            if measure.column == column:
-                return measure.title
-    return column
+    measure = measure_of(column)
+    return column if measure is None else measure.title
 
 
 def title_of_claim(claim: Claim) -> str:
     """Return the title of the claim's column, with its method unless that is the paper's."""
-    own = METHODS.get(claim.method, ())
+    own = methods()[claim.method].measures if claim.method in methods() else ()
     titles = [measure.title for measure in own if measure.column == claim.measure]
     title = titles[0] if titles else claim.measure
     return title if claim.method == REFERENCE else f"{title} ({claim.method})"
@@ -25,8 +22,5 @@ def title_of_claim(claim: Claim) -> str:
 
 def unit_of(column: str) -> str:
     """Return the unit of a measure's column, empty for a pure number."""
-    for measures in METHODS.values():
-        for measure in measures:
-            if measure.column == column:
-                return measure.unit
-    return ""
+    measure = measure_of(column)
+    return "" if measure is None else measure.unit

@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 import msgspec
 from msgspec import Meta, Struct
 
-from rockshape.measures import METHODS
+from rockshape.method import BUILT_IN, methods
 from synth.spec import SceneSpec
 from synth.spec.ground import GroundSpec
 from synth.spec.limits import Degrees
@@ -23,12 +23,12 @@ Way = Annotated[
 ShapeSeries = Literal["roundness", "sphericity"]
 
 
-def _check_methods(experiment: str, methods: tuple[str, ...]) -> None:
-    if 0 < len(methods) == len(set(methods)) and set(methods) <= set(METHODS):
+def _check_methods(experiment: str, names: tuple[str, ...]) -> None:
+    if 0 < len(names) == len(set(names)) and set(names) <= set(methods()):
         return
     raise ValueError(
-        f"experiment {experiment!r}: methods: expected some of {', '.join(METHODS)}, each once, "
-        f"found {', '.join(methods) or 'none'}"
+        f"experiment {experiment!r}: methods: expected some of {', '.join(methods())}, each once, "
+        f"found {', '.join(names) or 'none'}"
     )
 
 
@@ -48,7 +48,7 @@ class YardExperiment(
     varied: Annotated[tuple[Varied, ...], Meta(min_length=1)]  # truths that differ between rocks
     scene: SceneSpec = SceneSpec()
     sweep: Sweep | None = None
-    methods: Methods = tuple(METHODS)  # side by side; the first one's outlines are the pictures'
+    methods: Methods = BUILT_IN  # side by side; the first one's outlines are the pictures'
     labels: Literal["found", "true"] = "found"  # whose masks are measured
     min_visible_fraction: Annotated[float, Meta(ge=0, le=1)] = 0.8
     min_iou: Annotated[float, Meta(gt=0, le=1)] = 0.5
@@ -89,7 +89,7 @@ class ShapesExperiment(
     drawings: Annotated[int, Meta(ge=1, le=9999)]
     series: Annotated[tuple[ShapeSeries, ...], Meta(min_length=1)] = ("roundness", "sphericity")
     count: Annotated[int, Meta(ge=3, le=12)] = 4
-    methods: Methods = tuple(METHODS)
+    methods: Methods = BUILT_IN
 
     def __post_init__(self) -> None:
         """Ask for known methods."""
@@ -158,7 +158,7 @@ class DesignExperiment(
     suns: Annotated[tuple[SunSpec, ...], Meta(min_length=2)]
     rolls_deg: Annotated[tuple[Degrees, ...], Meta(min_length=2)]
     scene: SceneSpec
-    methods: Methods = tuple(METHODS)
+    methods: Methods = BUILT_IN
     min_visible_fraction: Annotated[float, Meta(ge=0, le=1)] = 0.99
     min_iou: Annotated[float, Meta(gt=0, le=1)] = 0.5
 

@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 
 import rockshape
-from rockshape.measures import METHODS, Reason
+from rockshape.measures import Reason
+from rockshape.method import methods
 
 SHAPE = (80, 80)
 MIDDLE = np.s_[30:50, 30:50]
-methods = pytest.mark.parametrize("method", METHODS)
+each_method = pytest.mark.parametrize("method", methods())
 
 
 def labels_of(*pixels: tuple[int, int]) -> np.ndarray:
@@ -34,7 +35,7 @@ def read(
 ) -> dict[str, rockshape.measures.Reading]:
     """The readings of the only rock, after checking that each is a value or a reason."""
     (rock,) = rockshape.measure(range_m=range_m, labels=labels, method=method).rocks
-    assert list(rock.readings) == [measure.column for measure in METHODS[method]]
+    assert list(rock.readings) == [measure.column for measure in methods()[method].measures]
     for reading in rock.readings.values():
         assert np.isfinite(reading.value) == (reading.reason is None)
         assert reading.value >= 0 or reading.reason is not None
@@ -45,7 +46,7 @@ def reasons(readings: dict[str, rockshape.measures.Reading], method: str, *, sol
     """The reasons of the measures that do, or do not, need range."""
     return {
         readings[measure.column].reason
-        for measure in METHODS[method]
+        for measure in methods()[method].measures
         if measure.needs_range == solid
     }
 
@@ -61,7 +62,7 @@ SMALL = {
 }
 
 
-@methods
+@each_method
 @pytest.mark.parametrize("labels", SMALL.values(), ids=SMALL)
 @pytest.mark.parametrize("range_m", [None, dome()], ids=["no range", "range"])
 def test_too_few_pixels_have_no_shape(
@@ -77,7 +78,7 @@ def test_too_few_pixels_have_no_shape(
     )
 
 
-@methods
+@each_method
 def test_without_range_the_flat_measures_stand(method: str) -> None:
     for range_m in (None, np.full((*SHAPE, 3), np.nan)):
         readings = read(disc_labels(), range_m, method)
@@ -85,7 +86,7 @@ def test_without_range_the_flat_measures_stand(method: str) -> None:
         assert reasons(readings, method, solid=True) == {Reason.NO_RANGE}
 
 
-@methods
+@each_method
 @pytest.mark.parametrize("count", [1, 2, 3, 8])
 def test_a_few_points_are_too_small(method: str, count: int) -> None:
     points = np.full((*SHAPE, 3), np.nan)
@@ -94,7 +95,7 @@ def test_a_few_points_are_too_small(method: str, count: int) -> None:
     assert reasons(readings, method, solid=True) == {Reason.TOO_SMALL}
 
 
-@methods
+@each_method
 @pytest.mark.parametrize(
     "points",
     [
@@ -110,18 +111,18 @@ def test_points_without_extent_determine_nothing(method: str, points: np.ndarray
     assert reasons(readings, method, solid=False) == {None}
 
 
-@methods
+@each_method
 def test_a_rock_at_the_frames_edge_is_whole_to_no_measure_that_needs_it_whole(method: str) -> None:
     labels = disc_labels(shift=(30, 0))
     (rock,) = rockshape.measure(labels=labels, method=method).rocks
     assert rock.truncated
-    for measure in METHODS[method]:
+    for measure in methods()[method].measures:
         if measure.whole:
             assert rock.readings[measure.column].reason is Reason.TRUNCATED
     read(labels, dome(), method)
 
 
-@methods
+@each_method
 def test_holes_in_the_range_move_no_measure_far(method: str, rng: np.random.Generator) -> None:
     points = dome()
     whole = read(disc_labels(), points, method)
@@ -134,7 +135,7 @@ def test_holes_in_the_range_move_no_measure_far(method: str, rng: np.random.Gene
             assert reading.value == pytest.approx(whole[column].value, rel=0.1)
 
 
-@methods
+@each_method
 def test_one_point_in_ten_gone_astray_crashes_nothing(
     method: str, rng: np.random.Generator
 ) -> None:
@@ -143,6 +144,6 @@ def test_one_point_in_ten_gone_astray_crashes_nothing(
     points[astray] *= rng.uniform(0.5, 2.0, (astray.sum(), 1))
     clean = read(disc_labels(), dome(), method)
     readings = read(disc_labels(), points, method)
-    for measure in METHODS[method]:
+    for measure in methods()[method].measures:
         if not measure.needs_range:
             assert readings[measure.column] == clean[measure.column]

@@ -5,7 +5,8 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from rockshape.measures import METHODS, Measure
+from rockshape.measures import Measure
+from rockshape.method import methods
 from rockshape.rock.view import RockView
 from tests import rocks
 
@@ -53,7 +54,7 @@ class Case(NamedTuple):
         return pytest.approx(self.value(view), rel=SAMPLED.get(self.name, SAME))
 
 
-CASES = [Case(method, measure) for method, measures in METHODS.items() for measure in measures]
+CASES = [Case(name, measure) for name, method in methods().items() for measure in method.measures]
 every_measure = pytest.mark.parametrize("case", CASES, ids=[case.name for case in CASES])
 
 

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from rockshape.measures import METHODS
+from rockshape.method import methods
 from validation.kinds.design.outlines import TRUTH_OF
 from validation.kinds.design.work import CLEAN
 
@@ -17,7 +17,8 @@ def knowing(records: pd.DataFrame) -> pd.DataFrame:
     """
     fed = records.copy()
     view = [fed[name] for name in _VIEW]
-    for column in dict.fromkeys(m.column for measures in METHODS.values() for m in measures):
+    every = (one for method in methods().values() for one in method.measures)
+    for column in dict.fromkeys(one.column for one in every):
         if column in fed:
             clean = fed[column].where(fed["series"] == CLEAN)
             source = fed[TRUTH_OF[column]] if column in TRUTH_OF else clean

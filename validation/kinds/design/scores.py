@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from rockshape.measures import METHODS
 from rockshape.measures.measure import Measure
+from rockshape.method import methods
 from validation.kinds.design.outlines import TRUTH_OF, explained_share, moments_of
 from validation.kinds.design.shared_variance import movements
 from validation.kinds.design.tensors import Cubes, cubes_of
@@ -208,6 +208,6 @@ def definitions(experiment: DesignExperiment) -> tuple[Definition, ...]:
     return tuple(
         _definition(experiment, method, measure, statistic)
         for method in experiment.methods
-        for measure in METHODS[method]
+        for measure in methods()[method].measures
         for statistic in (*_STATISTICS, *((_TRUE,) if measure.column in TRUTH_OF else ()))
     )

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from rockshape.camera.camera import Camera
 from rockshape.measurement import to_frame
-from rockshape.measures import METHODS
+from rockshape.method import methods
 from rockshape.observation import Observation
 from rockshape.pipeline import measure
 from rockshape.segmentation import segment
@@ -161,7 +161,7 @@ def _measured(experiment: DesignExperiment, scene: int, shot: Shot, camera: Came
                 view=shot.view,
                 method=method,
             )
-            columns = ["rock", *(m.column for m in METHODS[method]), "reason"]
+            columns = ["rock", *(m.column for m in methods()[method].measures), "reason"]
             rows = join(
                 place,
                 shot.truth,

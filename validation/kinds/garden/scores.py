@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 from scipy import stats
 
-from rockshape.measures import METHODS
+from rockshape.method import methods
 from validation.kinds.multiview.detection import rock_numbers
 from validation.scores.score import Definition, Estimate, Key
 from validation.scores.titles import REFERENCE
@@ -36,8 +36,8 @@ def is_garden(experiment: YardExperiment) -> bool:
 
 def column_of(method: str, paper_column: str) -> str:
     """Return the method's column of the measure that the paper's method calls so."""
-    titles = {measure.column: measure.title for measure in METHODS[REFERENCE]}
-    return next(m.column for m in METHODS[method] if m.title == titles[paper_column])
+    titles = {measure.column: measure.title for measure in methods()[REFERENCE].measures}
+    return next(m.column for m in methods()[method].measures if m.title == titles[paper_column])
 
 
 def rho_key(experiment: str, method: str, couple: Couple) -> Key:

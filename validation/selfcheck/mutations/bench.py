@@ -9,7 +9,7 @@ import msgspec
 import pandas as pd
 
 from rockshape.measurement import Measurement, to_frame
-from rockshape.measures import METHODS
+from rockshape.method import methods, registered
 from rockshape.pipeline import measure
 from validation.execution.units import MeasuredUnit, units_of
 from validation.execution.views import ViewCase, views_of
@@ -73,16 +73,14 @@ def _joined(view: ViewCase, found: Measurement, table: pd.DataFrame) -> pd.DataF
 @contextmanager
 def _measures(method: str, evaluate_by_column: Mapping[str, object]) -> Iterator[None]:
     """Let the method consist of the mutated measures alone."""
-    whole = METHODS[method]
-    METHODS[method] = tuple(
+    whole = methods()[method]
+    mutated = tuple(
         replace(measure, evaluate=evaluate_by_column[measure.column])  # type: ignore[arg-type]
-        for measure in whole
+        for measure in whole.measures
         if measure.column in evaluate_by_column
     )
-    try:
+    with registered(replace(whole, measures=mutated)):
         yield
-    finally:
-        METHODS[method] = whole
 
 
 def _mutated(view: ViewCase, found: Measurement, mutation: Mutation) -> pd.DataFrame:

@@ -1,0 +1,155 @@
+"""Method record: how rocks are found, fitted and measured, and the registry of methods.
+
+Two methods come with the package: `paper`, as published by Fox et al. (2002), and `robust`. An
+entry point of the group `rockshape.methods` adds a method, one of `rockshape.measures` a measure
+to `robust`; `register_method` adds one to this process.
+"""
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from functools import cache
+from importlib.metadata import entry_points
+from types import MappingProxyType
+from typing import TYPE_CHECKING, TypeVar
+
+from rockshape import measures
+from rockshape.ellipse.direct import Ellipse
+from rockshape.ellipsoid import Ellipsoid
+from rockshape.errors import InputError, unknown_name
+from rockshape.measures import Measure
+from rockshape.rock.view import RockView
+
+if TYPE_CHECKING:
+    from rockshape.ground import Plane
+    from rockshape.observation import Observation
+    from rockshape.segmentation import Segmentation
+
+METHODS_GROUP = "rockshape.methods"
+MEASURES_GROUP = "rockshape.measures"
+
+_Record = TypeVar("_Record")
+
+
+@dataclass(frozen=True, eq=False)
+class Fits:
+    """Ellipse of a rock's outline and ellipsoid of its points, as the table has them."""
+
+    ellipse: Ellipse | None
+    ellipsoid: Ellipsoid | None
+
+
+@dataclass(frozen=True, eq=False)
+class Method:
+    """A way to find rocks, fit them and measure them."""
+
+    name: str
+    segment: "Callable[[Observation], Segmentation]"  # its own finder
+    ground: "Callable[[Observation], Plane | None]"  # the ground under rocks that are given
+    fits: Callable[[RockView], Fits]
+    measures: tuple[Measure, ...]  # in the order of the table
+
+
+# segmentation takes half a second to import, and outlines without range need none of it
+
+
+def _segment_published(observation: "Observation") -> "Segmentation":
+    from rockshape.segmentation import segment  # noqa: PLC0415
+
+    return segment(observation, variant="paper")
+
+
+def _segment_robust(observation: "Observation") -> "Segmentation":
+    from rockshape.segmentation import segment  # noqa: PLC0415
+
+    return segment(observation, variant="robust")
+
+
+def _published_ground(observation: "Observation") -> "Plane | None":
+    from rockshape.segmentation import ground_under  # noqa: PLC0415
+
+    return ground_under(observation, variant="paper")
+
+
+def _robust_ground(observation: "Observation") -> "Plane | None":
+    from rockshape.segmentation import ground_under  # noqa: PLC0415
+
+    return ground_under(observation, variant="robust")
+
+
+def _published_fits(view: RockView) -> Fits:
+    return Fits(view.ellipse, None if view.ellipsoid is None else view.ellipsoid.ellipsoid)
+
+
+def _robust_fits(view: RockView) -> Fits:
+    return Fits(view.form_ellipse, view.held_ellipsoid)
+
+
+PAPER = Method("paper", _segment_published, _published_ground, _published_fits, measures.PAPER)
+ROBUST = Method("robust", _segment_robust, _robust_ground, _robust_fits, measures.ROBUST)
+BUILT_IN = (PAPER.name, ROBUST.name)
+
+
+def methods() -> Mapping[str, Method]:
+    """Methods by name: the package's own, then those of entry points, then registered ones.
+
+    Raises: InputError for an entry point that is no Method or no Measure, or takes another's name.
+    """
+    return MappingProxyType(_registry())
+
+
+def find_method(method: str | Method) -> Method:
+    """Method of a name; a Method is returned as it is. Raises: InputError for an unknown name."""
+    if isinstance(method, Method):
+        return method
+    if method not in methods():
+        raise unknown_name("method", method, methods())
+    return methods()[method]
+
+
+def register_method(method: Method) -> None:
+    """Add a method to this process's registry, in place of one of the same name."""
+    _registry()[method.name] = method
+
+
+@contextmanager
+def registered(method: Method) -> Iterator[None]:
+    """Registry with a method added, or put in place of one of its name, until the context ends."""
+    before = dict(_registry())
+    register_method(method)
+    try:
+        yield
+    finally:
+        _registry().clear()
+        _registry().update(before)
+
+
+def measure_of(column: str) -> Measure | None:
+    """First measure of any method that fills a column; None where none does."""
+    every = (one for method in methods().values() for one in method.measures)
+    return next((one for one in every if one.column == column), None)
+
+
+@cache
+def _registry() -> dict[str, Method]:
+    own = replace(ROBUST, measures=(*ROBUST.measures, *_load(MEASURES_GROUP, Measure)))
+    found = {PAPER.name: PAPER, own.name: own}
+    for method in _load(METHODS_GROUP, Method):
+        if method.name in found:
+            raise InputError(f"{METHODS_GROUP}: expected a name of its own, found {method.name!r}")
+        found[method.name] = method
+    return found
+
+
+def _load(group: str, record: type[_Record]) -> tuple[_Record, ...]:
+    """Records of a group of entry points, in the order of their names."""
+    loaded = []
+    for entry in sorted(entry_points(group=group), key=lambda entry: entry.name):
+        found = entry.load()
+        if not isinstance(found, record):
+            raise InputError(
+                f"entry point {entry.name!r} of {group}: expected a {record.__name__}, "
+                f"found {type(found).__name__}"
+            )
+        loaded.append(found)
+    return tuple(loaded)

@@ -1,69 +1,117 @@
-"""`rockshape synth`: scenes and shapes from the command line."""
+"""`rockshape synth`: scenes and drawn shapes from the command line.
+
+What makes them is imported when it is asked for, so that `--help` is fast.
+"""
 
 import argparse
+import importlib
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import get_args
 
 import msgspec
 
-from synth.dataset.generate import generate_dataset
-from synth.dataset.replay import replay_dataset
 from synth.errors import SpecError
-from synth.shapes import NAMES, write_series
-from synth.shapes.write import JITTER_RMS_PX
 from synth.spec import MAX_SCENES, RendererName, SceneSpec, convert_spec, load_spec
 from synth.spec.limits import MAX_COUNT
-from synth.spec.sensor import NoiseKind
+from synth.spec.sensor import SENSORS
+from synth.spec.shapes import JITTER_RMS_PX, SERIES_NAMES
 from synth.spec.view import PresetName
+from synth.spec.wording import expected_one_of
 
-HELP = "make rocks of known shape: rendered scenes, or drawn shapes, with their truth"
+HELP = "generate rocks of known shape: rendered scenes or drawn shapes, with their ground truth"
 
 _MAX_SEED = 2**63
 _SPEC_OPTIONS = ("spec", "seed", "scenes", "rocks", "views", "camera", "renderer", "noise")
+_EXAMPLES = """examples:
+  rockshape synth scene scenes --rocks 6 --views 4 --seed 1
+  rockshape synth shapes shapes --series roundness
+"""
+_SCENE_EXAMPLES = """examples:
+  rockshape synth scene scenes --rocks 6 --views 4 --seed 1 --noise stereo
+  rockshape synth scene again --replay scenes/manifest.json --jobs 2
+"""
+_SHAPES_EXAMPLES = """examples:
+  rockshape synth shapes shapes --series roundness --count 4 --seed 1
+  rockshape synth shapes uneven --series both --knobs 0.1,0.2,0.7
+"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the two kinds of output and their options."""
+    parser.epilog, parser.formatter_class = _EXAMPLES, argparse.RawDescriptionHelpFormatter
     kinds = parser.add_subparsers(title="kinds", metavar="KIND", dest="kind", required=True)
-    scene = kinds.add_parser("scene", help="rocks on a plain: image, depth, labels, truth (BOP)")
+    scene = kinds.add_parser(
+        "scene",
+        help="rocks on a ground: images, depth, labels and ground truth (BOP layout)",
+        description="Generate a dataset of rendered scenes in the BOP layout.",
+        epilog=_SCENE_EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
     scene.add_argument("out", metavar="OUT", type=Path, help="folder of the dataset")
-    scene.add_argument("--spec", metavar="FILE.toml", type=Path, help="the dataset's description")
-    scene.add_argument("--seed", metavar="N", type=int, help="seed of all randomness")
-    scene.add_argument("--scenes", metavar="N", type=int, help="number of scenes")
-    scene.add_argument("--rocks", metavar="N", type=int, help="rocks in a scene")
-    scene.add_argument("--views", metavar="N", type=int, help="camera stations round a scene")
+    scene.add_argument("--spec", metavar="FILE.toml", type=Path, help="specification to start from")
+    scene.add_argument("--seed", metavar="N", type=int, help="random seed (default 0)")
+    scene.add_argument("--scenes", metavar="N", type=int, help="number of scenes (default 1)")
+    scene.add_argument("--rocks", metavar="N", type=int, help="rocks in a scene (default 6)")
+    scene.add_argument("--views", metavar="N", type=int, help="views of a scene (default 4)")
     scene.add_argument("--camera", metavar="PRESET", help=_listed(get_args(PresetName)))
     scene.add_argument("--renderer", metavar="NAME", help=_listed(get_args(RendererName)))
-    scene.add_argument("--noise", metavar="KIND", help=f"the range: {_listed(get_args(NoiseKind))}")
+    scene.add_argument("--noise", metavar="KIND", help=f"range sensor: {_listed(SENSORS.names)}")
+    scene.add_argument(
+        "--plugin",
+        metavar="MODULE",
+        action="append",
+        default=[],
+        help="import a module that registers sensors or rock families",
+    )
     scene.add_argument("--jobs", metavar="N", type=int, default=1, help="processes (default 1)")
     scene.add_argument(
-        "--replay", metavar="MANIFEST.json", type=Path, help="make a dataset again, compare hashes"
+        "--replay",
+        metavar="MANIFEST.json",
+        type=Path,
+        help="generate a manifest's dataset again and compare the hash of every file",
     )
-    shapes = kinds.add_parser("shapes", help="a row of drawn shapes: image, labels, truth")
+    shapes = kinds.add_parser(
+        "shapes",
+        help="a series of drawn shapes: image, labels and ground truth",
+        description="Draw a series of shapes whose outlines are known exactly.",
+        epilog=_SHAPES_EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
     shapes.add_argument("out", metavar="OUT", type=Path, help="folder of the drawing")
-    shapes.add_argument("--series", metavar="NAME", required=True, help=_listed(NAMES))
-    shapes.add_argument("--count", metavar="N", type=int, help="shapes (default 4)")
+    shapes.add_argument("--series", metavar="NAME", required=True, help=_listed(SERIES_NAMES))
+    shapes.add_argument("--count", metavar="N", type=int, help="number of shapes (default 4)")
     shapes.add_argument(
-        "--knobs", metavar="V,V,…", help="the shapes' own knob values, in place of even steps"
+        "--knobs", metavar="V,V,…", help="values of the series' parameter, in place of even steps"
     )
     shapes.add_argument(
-        "--jitter", metavar="PX", type=float, default=JITTER_RMS_PX, help="the pen's, RMS (0.35)"
+        "--jitter",
+        metavar="PX",
+        type=float,
+        default=JITTER_RMS_PX,
+        help=f"RMS jitter of the pen, px (default {JITTER_RMS_PX:g})",
     )
-    shapes.add_argument("--seed", metavar="N", type=int, default=0, help="seed (default 0)")
+    shapes.add_argument("--seed", metavar="N", type=int, default=0, help="random seed (default 0)")
 
 
 def run(args: argparse.Namespace) -> int:
-    """Make what was asked for and return 0.
+    """Generate what was asked for and return 0.
 
     Raises:
-        InputError: an argument or a spec that cannot be used.
+        InputError: an argument or a specification that cannot be used.
         MissingBackendError: the machine lacks the renderer.
-        ReplayError: a dataset made again is not the same.
+        ReplayError: a dataset generated again is not the same.
     """
-    if args.kind == "shapes":
-        if args.seed < 0:
-            raise SpecError(f"--seed: expected 0 or more, found {args.seed}")
+    return _run_shapes(args) if args.kind == "shapes" else _run_scene(args)
+
+
+def _run_shapes(args: argparse.Namespace) -> int:
+    from synth.shapes.write import write_series  # noqa: PLC0415
+
+    if args.seed < 0:
+        raise SpecError(f"--seed: expected 0 or more, found {args.seed}")
+    try:
         write_series(
             args.series,
             args.out,
@@ -72,19 +120,48 @@ def run(args: argparse.Namespace) -> int:
             seed=args.seed,
             jitter_rms_px=args.jitter,
         )
-        return 0
+    except SpecError as error:
+        raise SpecError(_named_as_option(str(error))) from error
+    return 0
+
+
+def _run_scene(args: argparse.Namespace) -> int:
+    from synth.dataset.generate import generate_dataset  # noqa: PLC0415
+    from synth.dataset.replay import replay_dataset  # noqa: PLC0415
+
     if args.jobs < 1:
         raise SpecError(f"--jobs: expected 1 or more, found {args.jobs}")
+    for name in args.plugin:
+        _import_plugin(name)
     if args.replay is not None:
-        _refuse_beside_replay(args)
+        _reject_beside_replay(args)
         print(replay_dataset(args.replay, args.out, jobs=args.jobs, show_progress=True))
         return 0
     generate_dataset(_spec(args), args.out, jobs=args.jobs, show_progress=True)
     return 0
 
 
-def _refuse_beside_replay(args: argparse.Namespace) -> None:
-    """Refuse options that would describe another dataset than the manifest's."""
+def _import_plugin(name: str) -> None:
+    """Import a module, also of the current folder."""
+    if str(Path.cwd()) not in sys.path:
+        sys.path.append(str(Path.cwd()))
+    try:
+        importlib.import_module(name)
+    except ImportError as error:
+        raise SpecError(
+            f"--plugin: expected a module that can be imported, found {name!r}: {error}"
+        ) from error
+
+
+def _named_as_option(text: str) -> str:
+    """Return a complaint about an argument of `write_series` with the option's name."""
+    name, _, rest = text.partition(":")
+    options = {"series": "series", "count": "count", "knobs": "knobs", "jitter_rms_px": "jitter"}
+    return f"--{options[name]}:{rest}" if name in options else text
+
+
+def _reject_beside_replay(args: argparse.Namespace) -> None:
+    """Reject options that would describe another dataset than the manifest's."""
     for option in _SPEC_OPTIONS:
         if getattr(args, option) is not None:
             raise SpecError(
@@ -94,20 +171,20 @@ def _refuse_beside_replay(args: argparse.Namespace) -> None:
 
 
 def _numbers(option: str, text: str | None) -> list[float] | None:
-    """Return numbers that commas part, None where the option was not given."""
+    """Return comma-separated numbers, None where the option was not given."""
     if text is None:
         return None
     try:
         return [float(part) for part in text.split(",")]
     except ValueError as error:
-        raise SpecError(f"{option}: expected numbers parted by commas, found {text!r}") from error
+        raise SpecError(f"{option}: expected comma-separated numbers, found {text!r}") from error
 
 
 def _spec(args: argparse.Namespace) -> SceneSpec:
     """Return the spec of the file, or the default one, with the options laid over it."""
     _require("--camera", args.camera, get_args(PresetName))
     _require("--renderer", args.renderer, get_args(RendererName))
-    _require("--noise", args.noise, get_args(NoiseKind))
+    _require("--noise", args.noise, SENSORS.names)
     for option, most in (("scenes", MAX_SCENES), ("rocks", MAX_COUNT), ("views", MAX_COUNT)):
         value = getattr(args, option)
         if value is not None and not 1 <= value <= most:
@@ -132,7 +209,7 @@ def _spec(args: argparse.Namespace) -> SceneSpec:
 
 def _require(option: str, value: str | None, names: Sequence[str]) -> None:
     if value is not None and value not in names:
-        raise SpecError(f"{option}: expected {_listed(names)}, found {value!r}")
+        raise SpecError(f"{option}: {expected_one_of(value, names)}")
 
 
 def _listed(names: Sequence[str]) -> str:

@@ -1,4 +1,4 @@
-"""Generating a dataset: scenes in parallel, going on where an interrupted run stopped."""
+"""Dataset generation: scenes in parallel, resumed where an interrupted run stopped."""
 
 import shutil
 import sys
@@ -12,11 +12,12 @@ from tqdm import tqdm
 
 from synth.dataset.files import plain, read_json, write_json
 from synth.dataset.integrity import lost_files, scenes_of
-from synth.dataset.workers import worker_pool
+from synth.dataset.workers import registrations, worker_pool
 from synth.dataset.write import PARTIAL, identity, scene_name, write_common, write_scene
 from synth.errors import SpecError
 from synth.render import choose_backend
 from synth.render.backends import BACKENDS
+from synth.sensor import sensor_of
 from synth.spec import RendererName, SceneSpec
 
 
@@ -28,7 +29,7 @@ def generate_dataset(
     show_progress: bool = False,
     backend: RendererName | None = None,
 ) -> None:
-    """Write the dataset of a spec into a folder; scenes that are whole already are kept.
+    """Dataset of a spec written into a folder; scenes that are complete already are kept.
 
     `backend` takes the place of the spec's renderer, whose name the manifest keeps.
 
@@ -44,6 +45,8 @@ def generate_dataset(
     """
     if jobs < 1:
         raise SpecError(f"jobs: expected at least 1, found {jobs}")
+    sensor_of(spec)  # what cannot be used is reported before anything is written
+    registrations()
     made = not out.is_dir()
     fresh = made or not any(out.iterdir())
     backend = _claim(spec, out, backend or spec.renderer)

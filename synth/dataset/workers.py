@@ -1,4 +1,4 @@
-"""Fresh processes to render in, each kept to one thread: the processes are the parallelism."""
+"""Worker processes for rendering, each limited to one thread: the processes are the parallelism."""
 
 import os
 import threading
@@ -9,6 +9,9 @@ from multiprocessing import get_context, parent_process
 
 import cv2
 
+from synth.spec.rocks import FAMILIES
+from synth.spec.sensor import SENSORS
+
 # OpenBLAS, MKL, OpenMP and Mesa's llvmpipe read these when they are loaded.
 ONE_THREAD = {
     "OPENBLAS_NUM_THREADS": "1",
@@ -18,18 +21,39 @@ ONE_THREAD = {
 }
 
 
+Registrations = tuple[bytes, bytes]
+
+
+def registrations() -> Registrations:
+    """Registered sensors and rock families, for worker processes.
+
+    Raises:
+        InputError: a registered record is in no module that the processes can import.
+    """
+    return SENSORS.dump(), FAMILIES.dump()
+
+
 @contextmanager
 def worker_pool(jobs: int) -> Iterator[ProcessPoolExecutor]:
-    """Give so many processes that have no OpenGL yet.
+    """Pool of so many processes that have no OpenGL yet.
 
     A process is spawned when work is submitted, with the environment of that moment, so the
     environment holds the limits as long as the pool is open. With one thread sums have one order
-    too: the bytes do not depend on the number of processors.
+    too: the bytes do not depend on the number of processors. The processes know the sensors and
+    rock families that are registered here.
+
+    Raises:
+        InputError: a registered record is in no module that the processes can import.
     """
     before = {name: os.environ.get(name) for name in ONE_THREAD}
     os.environ.update(ONE_THREAD)
     try:
-        with ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=_begin) as pool:
+        with ProcessPoolExecutor(
+            jobs,
+            mp_context=get_context("spawn"),
+            initializer=begin_worker,
+            initargs=(registrations(),),
+        ) as pool:
             yield pool
     finally:
         for name, value in before.items():
@@ -39,8 +63,11 @@ def worker_pool(jobs: int) -> Iterator[ProcessPoolExecutor]:
                 os.environ[name] = value
 
 
-def _begin() -> None:
+def begin_worker(registered: Registrations) -> None:
+    """Limit this process to one thread and take over the parent's registered records."""
     cv2.setNumThreads(1)
+    SENSORS.load(registered[0])
+    FAMILIES.load(registered[1])
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
 

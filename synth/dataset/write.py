@@ -21,7 +21,7 @@ from synth.light import light_scene
 from synth.render import open_renderer, render_view
 from synth.render.view import Sight
 from synth.scene.scene import SceneModel, build_scene
-from synth.sensor import Capture, capture_view
+from synth.sensor import Capture, capture_view, sensor_of
 from synth.spec import RendererName, SceneSpec
 
 PARTIAL = ".partial"  # folder of scenes that are not whole yet, gone when the dataset is
@@ -59,13 +59,14 @@ def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -
     scene is written apart, in a folder of this process's own, and renamed into place when whole,
     after its models: a process that outlives its run disturbs no other.
     """
+    sensor = sensor_of(spec)
     scene = build_scene(spec, index)
     stage = light_scene(scene, spec.sun, spec.surface)
     renderer = open_renderer(backend, stage, scene.camera)
     scale_mm = depth_scale_mm(spec)
     folder = out / PARTIAL / f"{scene_name(index)}.{os.getpid()}"
     shutil.rmtree(folder, ignore_errors=True)
-    for name in (*_picture_folders(spec), "labels", "mask", "mask_visib", "models"):
+    for name in (*sensor.folders(), "labels", "mask", "mask_visib", "models"):
         (folder / name).mkdir(parents=True)
     views: list[Sight] = []
     valid = []
@@ -83,7 +84,7 @@ def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -
         )
         depth = encode_depth(capture.depth_m, scale_mm)
         _write_pictures(folder, number, capture, depth)
-        if spec.noise.kind != "none":
+        if not sensor.exact_range:
             exact = encode_depth(view.depth_m, scale_mm)
             write_png(folder / "depth_true" / f"{number:06d}.png", exact)
         _write_masks(folder, number, view)
@@ -150,18 +151,12 @@ def identity(spec: SceneSpec, backend: RendererName) -> dict[str, Any]:
     }
 
 
-def _picture_folders(spec: SceneSpec) -> tuple[str, ...]:
-    """Return the folders of a scene's pictures: what the sensor has, and what is true beside it."""
-    names = {"none": (), "stereo": ("depth_true",), "sgm": ("depth_true", "gray_right")}
-    return ("gray", "depth", *names[spec.noise.kind])
-
-
 def _write_pictures(folder: Path, number: int, capture: Capture, depth: NDArray[np.uint16]) -> None:
     name = f"{number:06d}.png"
     write_png(folder / "gray" / name, capture.picture)
     write_png(folder / "depth" / name, depth)
-    if capture.right_picture is not None:
-        write_png(folder / "gray_right" / name, capture.right_picture)
+    for own, picture in capture.pictures.items():
+        write_png(folder / own / name, picture)
 
 
 def _write_masks(folder: Path, number: int, view: Sight) -> None:

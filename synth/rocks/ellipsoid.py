@@ -1,5 +1,7 @@
 """Ellipsoids."""
 
+from functools import partial
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import elliprg
@@ -34,6 +36,7 @@ def ellipsoid(half_axes_m: Floats) -> RockModel:
         mesh=ellipsoid_mesh(half_axes_m),
         truth=truth,
         form=EllipsoidForm(half_axes_m),
+        remesh=partial(ellipsoid_mesh, half_axes_m),
     )
 
 
@@ -43,7 +46,7 @@ def ellipsoid_area_m2(half_axes_m: Floats) -> float:
     return float(4.0 * np.pi * elliprg(a2 * b2, a2 * c2, b2 * c2))
 
 
-def ellipsoid_mesh(half_axes_m: Floats, *, subdivisions: int = SUBDIVISIONS) -> Mesh:
+def ellipsoid_mesh(half_axes_m: Floats, subdivisions: int = SUBDIVISIONS) -> Mesh:
     """Return a mesh whose vertices lie on the ellipsoid, with its exact normals."""
     directions, faces = unit_sphere(subdivisions)
     normals = directions / half_axes_m

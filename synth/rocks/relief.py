@@ -16,7 +16,6 @@ from synth.geometry.mesh import (
     volume_m3,
 )
 from synth.geometry.min_volume_box import smallest_box
-from synth.rocks.outlines import RoundedHull
 from synth.rocks.record import RockModel
 from synth.rocks.resample import even_mesh
 from synth.rocks.sphere import SUBDIVISIONS, band_limited
@@ -131,7 +130,7 @@ def _subdivisions(rock: RockModel, last_degree: int) -> int:
     wave_rad = 2.0 * np.pi / last_degree
     for subdivisions in range(SUBDIVISIONS, _FINEST):
         if _EDGE_RAD / 2.0**subdivisions <= wave_rad / _EDGES_PER_WAVE and (
-            subdivisions >= _FOR_EDGES or not isinstance(rock.form, RoundedHull)
+            subdivisions >= _FOR_EDGES or not rock.has_edges
         ):
             return subdivisions
     return _FINEST

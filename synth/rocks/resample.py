@@ -7,11 +7,8 @@ from trimesh.ray.ray_pyembree import RayMeshIntersector
 
 from synth.errors import SpecError
 from synth.geometry.mesh import Mesh, vertex_normals
-from synth.rocks.ellipsoid import ellipsoid_mesh
-from synth.rocks.outlines import EllipsoidForm, SuperellipsoidForm
 from synth.rocks.record import RockModel
 from synth.rocks.sphere import unit_sphere
-from synth.rocks.superellipsoid import superellipsoid_mesh
 
 Floats = NDArray[np.float64]
 
@@ -29,11 +26,8 @@ def even_mesh(rock: RockModel, *, subdivisions: int) -> Mesh:
     Raises:
         InputError: a body that does not surround its centroid.
     """
-    if isinstance(rock.form, EllipsoidForm):
-        return ellipsoid_mesh(rock.form.half_axes_m, subdivisions=subdivisions)
-    if isinstance(rock.form, SuperellipsoidForm):
-        form = rock.form
-        return superellipsoid_mesh(form.half_axes_m, form.exponents, subdivisions=subdivisions)
+    if rock.remesh is not None:
+        return rock.remesh(subdivisions)
     if rock.form is None:
         return _rounded_off(rock.mesh, facets=20 * 4**subdivisions)
     return resampled(rock.mesh, rock.truth.half_axes_box_m, subdivisions=subdivisions)

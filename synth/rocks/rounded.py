@@ -104,4 +104,5 @@ def _rock(
         mesh=mesh.moved(np.eye(3), shift_m),
         truth=truth,
         form=RoundedHull(body.vertices_m + shift_m, radius_m),
+        has_edges=True,
     )

@@ -1,4 +1,4 @@
-"""The quarry: the rocks of one scene, drawn from the spec, and the series of one knob each."""
+"""Sampling of rocks: those of one scene, drawn from the spec, and series of one parameter each."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -7,21 +7,21 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.rocks.families import MIXED, draw_half_axes_m, draw_rock, polyhedra
+from synth.errors import SpecError
+from synth.rocks.family import Family, find_family
 from synth.rocks.record import RockModel
 from synth.rocks.relief import with_relief
-from synth.rocks.rounded import rounded_box
 from synth.spec.rocks import RocksSpec
 
 Floats = NDArray[np.float64]
 
 
 def quarry(spec: RocksSpec, *, rng: np.random.Generator) -> list[RockModel]:
-    """Return the rocks of one scene, in an order that tells nothing of their shape."""
+    """Rocks of one scene, in an order that is independent of their shape."""
     if spec.series in SERIES:
         rocks = SERIES[spec.series](spec, rng=rng)
         return [rocks[index] for index in rng.permutation(len(rocks))]
-    families = list(MIXED) if spec.family == "mixed" else [spec.family]
+    families = [find_family(name) for name in _members(spec.family)]
     turn = int(rng.integers(len(families)))
     return [
         draw_rock(
@@ -34,8 +34,30 @@ def quarry(spec: RocksSpec, *, rng: np.random.Generator) -> list[RockModel]:
     ]
 
 
+def draw_half_axes_m(spec: RocksSpec, *, rng: np.random.Generator) -> Floats:
+    """Half-axes a >= b >= c, (3,), drawn from the ranges of 2a, b/a and c/b."""
+    longest = rng.uniform(*spec.diameter_m) / 2.0
+    middle = longest * rng.uniform(*spec.b_over_a)
+    return np.array([longest, middle, middle * rng.uniform(*spec.c_over_b)])
+
+
+def draw_rock(
+    spec: RocksSpec, family: Family, half_axes_m: Floats, rng: np.random.Generator
+) -> RockModel:
+    """Rock of a family, with relief where the spec asks for it.
+
+    Relief draws from a generator of its own: it leaves the forms unchanged.
+    """
+    rock = _form(spec, family, half_axes_m, rng)
+    if family.always_rough or spec.relief:
+        own = rng.spawn(1)[0]
+        rms = own.uniform(*spec.relief_rms)
+        rock = with_relief(rock, relief_rms=rms, degrees=spec.relief_degrees, rng=own)
+    return replace(rock, family=family.name)
+
+
 def graded(spec: RocksSpec, *, rng: np.random.Generator) -> list[RockModel]:
-    """Return rocks from angular to round, alike in everything else.
+    """Series of rocks from angular to round, alike in everything else.
 
     All come from one polyhedron, or one box, with one set of half-axes: the rounding alone sets
     them apart, so their true order is beyond dispute and a measure that gets it wrong is wrong.
@@ -50,7 +72,7 @@ def graded(spec: RocksSpec, *, rng: np.random.Generator) -> list[RockModel]:
 
 
 def by_sphericity(spec: RocksSpec, *, rng: np.random.Generator) -> list[RockModel]:
-    """Return rocks from flat and long to equant, of one polyhedron or box and one rounding.
+    """Series of rocks from flat and long to equant, of one polyhedron or box and one rounding.
 
     b/a and c/b rise together in equal steps over their ranges; 2a stays. The roundness
     r/(r_in + r) depends on the rounding over the inradius alone and is the same for all.
@@ -68,10 +90,9 @@ def by_sphericity(spec: RocksSpec, *, rng: np.random.Generator) -> list[RockMode
 
 
 def by_relief(spec: RocksSpec, *, rng: np.random.Generator) -> list[RockModel]:
-    """Return rocks of one form under one relief, from smooth to rough: its height alone differs."""
+    """Series of one form under one relief, from smooth to rough: its height alone differs."""
     plain = msgspec.structs.replace(spec, relief=False, series="random")
-    family = "ellipsoid" if spec.family == "perturbed" else spec.family
-    base = draw_rock(plain, family, draw_half_axes_m(spec, rng=rng), rng)
+    base = _form(plain, find_family(spec.family), draw_half_axes_m(spec, rng=rng), rng)
     seed = int(rng.spawn(1)[0].integers(2**62))
     return [
         replace(
@@ -84,14 +105,28 @@ def by_relief(spec: RocksSpec, *, rng: np.random.Generator) -> list[RockModel]:
     ]
 
 
+def _members(name: str) -> tuple[str, ...]:
+    """Names of the families that a family's rocks are of: its members', or its own."""
+    return find_family(name).members or (name,)
+
+
+def _form(
+    spec: RocksSpec, family: Family, half_axes_m: Floats, rng: np.random.Generator
+) -> RockModel:
+    """Rock of a family without relief."""
+    if family.draw is None:
+        raise SpecError(f"rocks.family: expected one that draws rocks, found {family.name!r}")
+    return family.draw(spec, half_axes_m, rng)
+
+
 def _rounded(
     spec: RocksSpec, targets: list[tuple[Floats, float]], rng: np.random.Generator
 ) -> list[RockModel]:
-    """Return one box or polyhedron with each of the half-axes and roundings."""
-    if spec.family == "rounded-box":
-        rocks = [rounded_box(half_axes_m, rounding=rounding) for half_axes_m, rounding in targets]
-    else:
-        rocks = polyhedra(spec, targets, rng=rng)
+    """One form of the spec's family with each of the half-axes and roundings."""
+    grade = find_family(spec.family).grade
+    if grade is None:
+        raise SpecError(f"rocks.family: expected one that can be graded, found {spec.family!r}")
+    rocks = grade(spec, targets, rng)
     if not spec.relief:
         return rocks
     own = rng.spawn(1)[0]

@@ -1,5 +1,7 @@
 """Superellipsoids: from ellipsoid to box by two exponents."""
 
+from functools import partial
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -37,6 +39,7 @@ def superellipsoid(half_axes_m: Floats, *, exponents: tuple[float, float]) -> Ro
         mesh=superellipsoid_mesh(half_axes_m, exponents),
         truth=truth,
         form=SuperellipsoidForm(half_axes_m, exponents),
+        remesh=partial(superellipsoid_mesh, half_axes_m, exponents),
     )
 
 
@@ -79,7 +82,7 @@ def _gauge(directions: Floats, exponents: tuple[float, float]) -> tuple[Floats, 
 
 
 def superellipsoid_mesh(
-    half_axes_m: Floats, exponents: tuple[float, float], *, subdivisions: int = SUBDIVISIONS
+    half_axes_m: Floats, exponents: tuple[float, float], subdivisions: int = SUBDIVISIONS
 ) -> Mesh:
     """Return a mesh whose vertices lie on the surface, with its exact normals."""
     directions, faces = unit_sphere(subdivisions)

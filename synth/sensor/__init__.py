@@ -1,5 +1,14 @@
-"""What a sensor makes of a view: a picture of so many bits, and range with its errors."""
+"""Sensors: from a rendered view to an image and a range with the errors of measurement."""
 
-from synth.sensor.capture import Capture, capture_view
+from synth.sensor.capture import capture_view, sensor_of
+from synth.sensor.sensor import Capture, Sensor, SensorInput, find_sensor, register_sensor
 
-__all__ = ["Capture", "capture_view"]
+__all__ = [
+    "Capture",
+    "Sensor",
+    "SensorInput",
+    "capture_view",
+    "find_sensor",
+    "register_sensor",
+    "sensor_of",
+]

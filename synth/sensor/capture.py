@@ -1,33 +1,31 @@
-"""One view as the sensor has it: picture and range, and the right eye's picture where matched."""
+"""Capture of one view by the sensor of a spec."""
 
-from dataclasses import dataclass
-
-import numpy as np
-from numpy.typing import NDArray
-
-from synth.camera.camera import Pose, RenderCamera, right_eye
+from synth.camera.camera import PRESETS, Pose, RenderCamera
+from synth.errors import SpecError
 from synth.light import Stage
 from synth.render.interface import Renderer
-from synth.render.view import RenderedView, render_light
-from synth.sensor.exposure import Picture, eight_bits, take_picture
-from synth.sensor.rectify import Bytes, Rectification, rectification_of
-from synth.sensor.rig import rig_of
+from synth.render.view import RenderedView
+from synth.sensor.exposure import Picture, take_picture
 from synth.sensor.seeds import Use, stream
-from synth.sensor.sgm import matched_disparity_px, search_range_px
-from synth.sensor.stereo import modelled_depth_m
+from synth.sensor.sensor import Capture, Sensor, SensorInput, find_sensor
 from synth.spec import SceneSpec
+from synth.spec.registry import options_of
 from synth.spec.sensor import SensorSpec
 
-Floats = NDArray[np.float64]
 
+def sensor_of(spec: SceneSpec) -> Sensor:
+    """Sensor of a spec, which its camera preset can carry.
 
-@dataclass(frozen=True, eq=False)
-class Capture:
-    """What the sensor measured in one view."""
-
-    picture: Picture  # (rows, cols), 8 bits, or 12 in the upper bits of 16
-    depth_m: Floats  # (rows, cols), NaN in holes
-    right_picture: Picture | None  # the right eye's, where two pictures were matched
+    Raises:
+        InputError: the sensor needs two eyes and the preset has one.
+    """
+    sensor = find_sensor(spec.noise.kind)
+    if sensor.needs_baseline and PRESETS[spec.camera.preset].baseline_m is None:
+        raise SpecError(
+            f"noise.kind: expected a preset with two eyes for {sensor.name!r}, "
+            f"found {spec.camera.preset!r}"
+        )
+    return sensor
 
 
 def capture_view(
@@ -41,63 +39,45 @@ def capture_view(
     stage: Stage,
     renderer: Renderer,
 ) -> Capture:
-    """Return what the sensor makes of view `number` of a scene, a function of spec and numbers.
+    """What the sensor measures in view `number` of a scene, a function of spec and numbers.
 
-    Each use of chance has a stream of its own, so that range noise does not change the picture.
+    Each use of chance has a stream of its own, so that range noise does not change the image.
+
+    Raises:
+        InputError: the sensor's capture is not of its own folders or of the view's size.
     """
-
-    def chance(use: Use) -> np.random.Generator:
-        return stream(use, seed=spec.seed, scene=scene, view=number)
-
-    noise, sensor = spec.noise, spec.sensor
-    ideal = sensor == SensorSpec()
-    picture = view.image if ideal else take_picture(view.light, sensor, rng=chance(Use.PICTURE))
-    if noise.kind == "none":
-        return Capture(picture=picture, depth_m=view.depth_m, right_picture=None)
-    rig = rig_of(spec.camera.preset)
-    lens = None if camera.distortion is None else rectification_of(camera)
-    if noise.kind == "stereo":
-        exposed = sensor.exposure * view.light
-        depth_m = modelled_depth_m(
-            view.depth_m, exposed, rig, noise, rng=chance(Use.DISPARITY), lens=lens
+    sensor = sensor_of(spec)
+    picture: Picture = view.image
+    if spec.sensor != SensorSpec():
+        chance = stream(Use.PICTURE, seed=spec.seed, scene=scene, view=number)
+        picture = take_picture(view.light, spec.sensor, rng=chance)
+    capture = sensor.capture(
+        SensorInput(
+            view=view,
+            picture=picture,
+            pose=pose,
+            camera=camera,
+            spec=spec,
+            scene=scene,
+            number=number,
+            stage=stage,
+            renderer=renderer,
+            options=options_of("sensor", sensor, spec.noise.options),
         )
-        return Capture(picture=picture, depth_m=depth_m, right_picture=None)
-    light = render_light(
-        renderer,
-        stage,
-        camera,
-        right_eye(pose, rig.baseline_m),
-        supersample=spec.camera.supersample,
     )
-    right = take_picture(light, sensor, rng=chance(Use.RIGHT_PICTURE))
-    disparity_px = _matched_px(
-        eight_bits(picture),
-        eight_bits(right),
-        exact_px=rig.disparity_px(view.depth_m),
-        window_px=noise.window_px,
-        lens=lens,
-    )
-    return Capture(picture=picture, depth_m=rig.depth_m(disparity_px), right_picture=right)
+    _check(capture, sensor, view)
+    return capture
 
 
-def _matched_px(
-    left: Bytes, right: Bytes, *, exact_px: Floats, window_px: int, lens: Rectification | None
-) -> Floats:
-    """Return the disparity of two pictures, (rows, cols), matched where the lens's are straight.
-
-    The scene's own disparities set the range that is searched.
-    """
-    least_px, count = search_range_px(exact_px)
-    if lens is None:
-        return matched_disparity_px(
-            left, right, least_px=least_px, count=count, window_px=window_px
+def _check(capture: Capture, sensor: Sensor, view: RenderedView) -> None:
+    """Raise InputError where a sensor does not return what its record says."""
+    if set(capture.pictures) != set(sensor.pictures):
+        raise SpecError(
+            f"sensor {sensor.name!r}: pictures: expected {sorted(sensor.pictures)}, "
+            f"found {sorted(capture.pictures)}"
         )
-    found_px = matched_disparity_px(
-        lens.straight_picture(left),
-        lens.straight_picture(right),
-        least_px=least_px,
-        count=count,
-        window_px=window_px,
-    )
-    found_px[~lens.seen | lens.outside_right(found_px)] = np.nan
-    return lens.bent_disparity_px(found_px)
+    if capture.depth_m.shape != view.depth_m.shape:
+        raise SpecError(
+            f"sensor {sensor.name!r}: depth_m: expected (rows, cols) {view.depth_m.shape}, "
+            f"found {capture.depth_m.shape}"
+        )

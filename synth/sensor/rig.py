@@ -1,4 +1,4 @@
-"""A pair of eyes side by side: disparity and depth."""
+"""Stereo rig: disparity and depth of two parallel cameras."""
 
 from dataclasses import dataclass
 
@@ -33,7 +33,7 @@ class Rig:
 
 
 def rig_of(preset: str) -> Rig:
-    """Return the rig of a preset.
+    """Stereo rig of a camera preset.
 
     Raises:
         InputError: the preset has one eye.

@@ -1,18 +1,23 @@
-"""Random numbers of the sensor: one stream for each use, so that none reshuffles another."""
+"""Random streams of the sensor: one for each use, so that none reshuffles another."""
 
+import hashlib
 from enum import IntEnum
 
 import numpy as np
 
 
 class Use(IntEnum):
-    """What a stream is for; the values are part of what a seed means."""
+    """Use of a stream; the values are part of what a seed means."""
 
     PICTURE = 601
     RIGHT_PICTURE = 602
     DISPARITY = 603
 
 
-def stream(use: Use, *, seed: int, scene: int, view: int) -> np.random.Generator:
-    """Return the random numbers of one use in one view."""
-    return np.random.default_rng([seed, scene, int(use), view])
+def stream(use: Use | str, *, seed: int, scene: int, view: int) -> np.random.Generator:
+    """Random numbers of one use in one view; a registered sensor names uses of its own."""
+    if isinstance(use, str):
+        key = int.from_bytes(hashlib.sha256(use.encode()).digest()[:8], "big")
+    else:
+        key = int(use)
+    return np.random.default_rng([seed, scene, key, view])

@@ -1,8 +1,15 @@
-"""Real stereo: two pictures matched by OpenCV's semi-global block matching."""
+"""Stereo matching: two images matched by OpenCV's semi-global block matching."""
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+
+from synth.camera.camera import right_eye
+from synth.sensor.exposure import eight_bits
+from synth.sensor.rectify import Rectification, rectification_of
+from synth.sensor.rig import rig_of
+from synth.sensor.seeds import Use
+from synth.sensor.sensor import Capture, Sensor, SensorInput
 
 Floats = NDArray[np.float64]
 Bytes = NDArray[np.uint8]
@@ -20,14 +27,14 @@ _OVERLAP_ROWS = 48  # bands of rows are matched with this much of their neighbou
 
 
 def search_range_px(disparity_px: Floats) -> tuple[int, int]:
-    """Return the least disparity to try and their number, a multiple of 16."""
+    """Search range: the least disparity to try and their number, a multiple of 16."""
     low = max(0, int(np.floor(np.nanmin(disparity_px) * (1.0 - _MARGIN))))
     high = int(np.ceil(np.nanmax(disparity_px) * (1.0 + _MARGIN))) + 1
     return low, _GRANULE * int(np.ceil((high - low) / _GRANULE))
 
 
 def _to_nearest(steps: NDArray[np.int16]) -> Floats:
-    """Return OpenCV's disparities, in sixteenths, as rounding to the nearest would have them.
+    """OpenCV's disparities, in sixteenths, as rounding to the nearest would have them.
 
     OpenCV adds a half to the parabola's offset from the best whole disparity and cuts towards
     zero, so a negative offset is a step too great: 9 … 15 sixteenths stand for one less, and 0,
@@ -40,7 +47,7 @@ def _to_nearest(steps: NDArray[np.int16]) -> Floats:
 def matched_disparity_px(
     left: Bytes, right: Bytes, *, least_px: int, count: int, window_px: int
 ) -> Floats:
-    """Return the left picture's disparity, (rows, cols), to a fraction of a pixel; NaN in holes.
+    """Disparity of the left image, (rows, cols), to a fraction of a pixel; NaN in holes.
 
     Semi-global matching (Hirschmüller 2008) over eight directions, a parabola through the costs,
     the check from right to left, unique matches, no speckles. Five directions from above would
@@ -79,3 +86,52 @@ def matched_disparity_px(
     landing = np.arange(cols) - disparity_px
     matched = (steps >= _STEPS * least_px) & (disparity_px > 0.0) & (landing >= -0.5)
     return np.where(matched, disparity_px, np.nan)
+
+
+def _straight_disparity_px(
+    left: Bytes, right: Bytes, *, exact_px: Floats, window_px: int, lens: Rectification | None
+) -> Floats:
+    """Disparity of two images, (rows, cols), matched where the lens's are straight.
+
+    The scene's own disparities set the range that is searched.
+    """
+    least_px, count = search_range_px(exact_px)
+    if lens is None:
+        return matched_disparity_px(
+            left, right, least_px=least_px, count=count, window_px=window_px
+        )
+    found_px = matched_disparity_px(
+        lens.straight_picture(left),
+        lens.straight_picture(right),
+        least_px=least_px,
+        count=count,
+        window_px=window_px,
+    )
+    found_px[~lens.seen | lens.outside_right(found_px)] = np.nan
+    return lens.bent_disparity_px(found_px)
+
+
+def _capture(shot: SensorInput) -> Capture:
+    rig = rig_of(shot.spec.camera.preset)
+    right = shot.picture_from(right_eye(shot.pose, rig.baseline_m), Use.RIGHT_PICTURE)
+    disparity_px = _straight_disparity_px(
+        eight_bits(shot.picture),
+        eight_bits(right),
+        exact_px=rig.disparity_px(shot.view.depth_m),
+        window_px=shot.spec.noise.window_px,
+        lens=None if shot.camera.distortion is None else rectification_of(shot.camera),
+    )
+    return Capture(
+        picture=shot.picture,
+        depth_m=rig.depth_m(disparity_px),
+        pictures={"gray_right": right},
+    )
+
+
+SGM = Sensor(
+    "sgm",
+    "two rendered images, matched",
+    _capture,
+    pictures=("gray_right",),
+    needs_baseline=True,
+)

@@ -1,12 +1,14 @@
-"""The error model of a stereo camera: what a matcher would measure, without matching."""
+"""Stereo error model: the range that a matcher would measure, without matching."""
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from synth.sensor.occlusion import contrast, half_occluded
-from synth.sensor.rectify import Rectification
-from synth.sensor.rig import Rig
+from synth.sensor.rectify import Rectification, rectification_of
+from synth.sensor.rig import Rig, rig_of
+from synth.sensor.seeds import Use
+from synth.sensor.sensor import Capture, Sensor, SensorInput
 from synth.spec.sensor import NoiseSpec
 
 Floats = NDArray[np.float64]
@@ -23,7 +25,7 @@ def modelled_depth_m(
     rng: np.random.Generator,
     lens: Rectification | None = None,
 ) -> Floats:
-    """Return the z-depth, (rows, cols), that a stereo camera measures; NaN in its holes.
+    """Z-depth, (rows, cols), that a stereo camera measures; NaN in its holes.
 
     d = d₀ + σ_d √(1 + (c₀/c)²) g − A ⟨sin 2πd₀⟩ with d₀ = f B / Z, rounded to the matcher's
     steps; Z = f B / d. g is normal noise of unit variance that is even over the matching window,
@@ -46,7 +48,7 @@ def modelled_depth_m(
 
 
 def _hidden(exact_px: Floats, lens: Rectification | None) -> NDArray[np.bool_]:
-    """Tell which pixels one eye alone sees; under a lens, by the straightened pictures' rows."""
+    """Pixels that one eye alone sees; under a lens, by the straightened images' rows."""
     if lens is None:
         return half_occluded(exact_px)
     straight_px = lens.straight_disparity_px(exact_px)
@@ -54,7 +56,7 @@ def _hidden(exact_px: Floats, lens: Rectification | None) -> NDArray[np.bool_]:
 
 
 def pull(disparity_px: Floats, window_px: int) -> Floats:
-    """Return the window's mean of sin 2πd, (rows, cols): how far above a whole disparity it is.
+    """Window mean of sin 2πd, (rows, cols): the pull of sub-pixel interpolation.
 
     Where d runs through whole disparities within the window, the pulls cancel.
     """
@@ -63,7 +65,7 @@ def pull(disparity_px: Floats, window_px: int) -> Floats:
 
 
 def even_noise(shape: tuple[int, ...], window_px: int, *, rng: np.random.Generator) -> Floats:
-    """Return normal noise of unit variance, (rows, cols): white noise summed over a window.
+    """Correlated normal noise of unit variance, (rows, cols): white noise summed over a window.
 
     The sum of w² independent values has the variance w²; the correlation of two pixels falls
     linearly with their distance and is 0 from w on, in rows and in columns.
@@ -72,3 +74,18 @@ def even_noise(shape: tuple[int, ...], window_px: int, *, rng: np.random.Generat
     white = rng.standard_normal((shape[0] + 2 * half, shape[1] + 2 * half))
     total = cv2.boxFilter(white, -1, (window_px, window_px), normalize=False)
     return np.asarray(total[half : half + shape[0], half : half + shape[1]] / window_px)
+
+
+def _capture(shot: SensorInput) -> Capture:
+    depth_m = modelled_depth_m(
+        shot.view.depth_m,
+        shot.spec.sensor.exposure * shot.view.light,
+        rig_of(shot.spec.camera.preset),
+        shot.spec.noise,
+        rng=shot.random(Use.DISPARITY),
+        lens=None if shot.camera.distortion is None else rectification_of(shot.camera),
+    )
+    return Capture(picture=shot.picture, depth_m=depth_m)
+
+
+STEREO = Sensor("stereo", "the error model of a stereo camera", _capture, needs_baseline=True)

@@ -1,6 +1,6 @@
-"""Hand-drawn shapes in the plane, in series, with the exact truth of each outline."""
+"""Drawn shapes in the plane, in series, with the exact truth of each outline."""
 
-from synth.shapes.series import NAMES, SERIES, Shape, shape_series
+from synth.shapes.series import SERIES, Shape, shape_series
 from synth.shapes.write import draw_series, write_series
 
-__all__ = ["NAMES", "SERIES", "Shape", "draw_series", "shape_series", "write_series"]
+__all__ = ["SERIES", "Shape", "draw_series", "shape_series", "write_series"]

@@ -1,4 +1,4 @@
-"""Series of shapes: angular to round, oblong to round, both at once; and a chart of them all."""
+"""Series of shapes: angular to round, oblong to round, both at once; and a chart of all."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 
 from synth.errors import SpecError
 from synth.shapes.outline import RoundedPolygon, largest_disc_px, rectangle
+from synth.spec.shapes import CHART, SERIES_NAMES
+from synth.spec.wording import expected_one_of
 
 Floats = NDArray[np.float64]
 
@@ -24,7 +26,6 @@ _MAX_SHAPES = 100
 _TOLERANCE = 1e-9
 _CLASSES = np.arange(1, 10) / 10.0  # of roundness, the chart's rows
 _CHART_SIDES = np.linspace(0.30, 0.94, 9)  # short over long side, the chart's columns
-CHART = "krumbein"
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,25 +63,25 @@ def shape_series(
     """
     if series == CHART:
         if knobs is not None or count not in (None, _CLASSES.size * _CHART_SIDES.size):
-            option = "--count" if knobs is None else "--knobs"
-            raise SpecError(f"{option}: expected none beside --series {CHART}: 81 shapes, always")
+            option = "count" if knobs is None else "knobs"
+            raise SpecError(f"{option}: expected none for the series {CHART}: always 81 shapes")
         return chart(rng)
     if series not in SERIES:
-        raise SpecError(f"--series: expected one of {', '.join(NAMES)}, found {series!r}")
+        raise SpecError(f"series: {expected_one_of(series, SERIES_NAMES)}")
     found = SERIES[series]
     if knobs is None:
         steps = 4 if count is None else count
         if not 1 <= steps <= _MAX_SHAPES:
-            raise SpecError(f"--count: expected 1 to {_MAX_SHAPES}, found {steps}")
+            raise SpecError(f"count: expected 1 to {_MAX_SHAPES}, found {steps}")
         return found.make(np.linspace(*found.ends, steps), rng)
     if count not in (None, len(knobs)):
-        raise SpecError(f"--count: expected {len(knobs)} as --knobs has, found {count}")
+        raise SpecError(f"count: expected {len(knobs)} as knobs has, found {count}")
     low, high = found.limits
     for value in knobs:
         if not low <= value <= high:
-            raise SpecError(f"--knobs: expected {low:g} to {high:g} for {series}, found {value:g}")
+            raise SpecError(f"knobs: expected {low:g} to {high:g} for {series}, found {value:g}")
     if not len(knobs):
-        raise SpecError("--knobs: expected at least one value, found none")
+        raise SpecError("knobs: expected at least one value, found none")
     return found.make(np.array(knobs, dtype=np.float64), rng)
 
 
@@ -139,7 +140,6 @@ SERIES: Mapping[str, Series] = {
     "sphericity": Series(sphericity_series, ends=_SIDES, limits=(0.05, 1.0)),
     "both": Series(both_series, ends=_ROUNDNESS, limits=(0.01, 0.95)),
 }
-NAMES = (*SERIES, CHART)
 
 
 def _held(polygon: Floats, roundness: float, ratio: float) -> Shape | None:
@@ -179,7 +179,7 @@ def _settled(
         settled = [shape for shape in shapes if shape is not None]
         if len(settled) == len(shapes):
             return settled
-    raise SpecError(f"--knobs: expected values that one polygon can take, found {list(roundness)}")
+    raise SpecError(f"knobs: expected values that one polygon can take, found {list(roundness)}")
 
 
 def _random_polygon(rng: np.random.Generator) -> Floats:

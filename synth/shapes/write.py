@@ -15,8 +15,9 @@ from skimage.draw import polygon as polygon_pixels
 from synth.dataset.files import write_png
 from synth.errors import SpecError
 from synth.shapes.outline import axis_ratio
-from synth.shapes.series import CHART, Shape, shape_series
+from synth.shapes.series import Shape, shape_series
 from synth.shapes.svg import svg_text
+from synth.spec.shapes import CHART, JITTER_RMS_PX, MAX_JITTER_PX
 
 Floats = NDArray[np.float64]
 
@@ -26,8 +27,6 @@ _CHART_COLUMNS = 9
 _SUBPIXELS = 4
 _PAPER, _FILL, _INK = 236, 168, 40  # grey levels
 _PEN_WIDTH_PX = 2.5
-JITTER_RMS_PX = 0.35
-_MAX_JITTER_PX = 5.0
 _JITTER_WAVELENGTH_PX = 60.0
 _SHIFT_BITS = 8
 
@@ -101,8 +100,10 @@ def write_series(
         InputError: an unknown series, a count, values or a jitter out of range, or a folder
             that is a file or holds other files.
     """
-    if not 0.0 <= jitter_rms_px <= _MAX_JITTER_PX:
-        raise SpecError(f"--jitter: expected 0 to {_MAX_JITTER_PX:g} px, found {jitter_rms_px:g}")
+    if not 0.0 <= jitter_rms_px <= MAX_JITTER_PX:
+        raise SpecError(
+            f"jitter_rms_px: expected 0 to {MAX_JITTER_PX:g} px, found {jitter_rms_px:g}"
+        )
     _check_free(out)
     rng = np.random.default_rng([seed])
     shapes = shape_series(series, count=count, knobs=knobs, rng=rng)

@@ -1,4 +1,4 @@
-"""The description of a dataset: every knob with unit, limits and default; read from TOML."""
+"""Dataset specification: every parameter with its unit, limits and default; read from TOML."""
 
 import tomllib
 from pathlib import Path
@@ -22,7 +22,7 @@ Seed = Annotated[int, Meta(ge=0, le=2**63 - 1)]
 
 
 class SceneSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """A whole dataset. Scene i is a function of the spec and i alone."""
+    """Specification of a dataset. Scene i is a function of the spec and i alone."""
 
     seed: Seed = 0
     scenes: Annotated[int, Meta(ge=1, le=MAX_SCENES)] = 1
@@ -38,7 +38,7 @@ class SceneSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     sensor: SensorSpec = SensorSpec()
 
     def __post_init__(self) -> None:
-        """Refuse counted rocks on a pan: none could lie in every view."""
+        """Reject counted rocks on a pan: none could lie in every view."""
         if self.views.path == "pan" and self.population.kind == "count":
             raise ValueError(
                 'views.path: \'pan\' needs population.kind = "golombek-rapp", found "count"'
@@ -46,7 +46,7 @@ class SceneSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
 
 
 def load_spec(path: Path) -> SceneSpec:
-    """Read a spec from a TOML file; what the file leaves out keeps its default.
+    """Specification read from a TOML file; keys that it leaves out keep their defaults.
 
     Raises:
         InputError: the file is missing, is no TOML, or holds a key or value that is not allowed.
@@ -63,7 +63,7 @@ def load_spec(path: Path) -> SceneSpec:
 
 
 def convert_spec(table: object, *, where: str) -> SceneSpec:
-    """Turn plain tables into a checked spec; `where` begins the complaint.
+    """Specification converted from plain tables and checked; `where` begins the complaint.
 
     Raises:
         InputError: a key or value that is not allowed; the message names it.
@@ -71,4 +71,4 @@ def convert_spec(table: object, *, where: str) -> SceneSpec:
     try:
         return msgspec.convert(table, SceneSpec)
     except msgspec.ValidationError as error:
-        raise SpecError(f"{where}: {complaint(str(error), table, SceneSpec)}") from error
+        raise SpecError(f"{where}: {complaint(table, SceneSpec)}") from error

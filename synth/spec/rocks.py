@@ -1,9 +1,10 @@
-"""The knobs of the rocks."""
+"""Parameters of the rocks: family, series, size, form and surface."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal, Protocol
 
-from msgspec import Meta, Struct
+from msgspec import UNSET, Meta, Struct, UnsetType
 
+from synth.errors import SpecError
 from synth.spec.limits import (
     AxisRatioRange,
     Count,
@@ -12,17 +13,8 @@ from synth.spec.limits import (
     RatioRange,
     check_range,
 )
+from synth.spec.registry import Record, Registry, options_of
 
-Family = Literal[
-    "rounded-polyhedron",
-    "ellipsoid",
-    "rounded-box",
-    "perturbed",
-    "superellipsoid",
-    "realistic",
-    "scan",
-    "mixed",
-]
 Series = Literal["graded", "sphericity", "relief", "random"]
 
 Cuts = Annotated[int, Meta(ge=6, le=80)]
@@ -32,11 +24,38 @@ Exponent = Annotated[float, Meta(ge=2, le=10)]
 Degree = Annotated[int, Meta(ge=1, le=60)]
 Files = Annotated[tuple[str, ...], Meta(max_length=1000)]
 
-_WITH_ROUNDING = ("rounded-polyhedron", "rounded-box")
+_DEFAULTS = ("rounded-polyhedron", "graded")  # a family and a series that it can have
+
+
+class FamilyRecord(Record, Protocol):
+    """What a spec has to know of a rock family."""
+
+    @property
+    def series(self) -> tuple[str, ...]:
+        """The series that it can be graded in."""
+
+    def check(self, spec: "RocksSpec") -> None:
+        """Raise ValueError, its text beginning with the key, where the family lacks something."""
+
+
+FAMILIES: Registry[FamilyRecord] = Registry(
+    "rock family",
+    group="synth.families",
+    own={
+        "rounded-polyhedron": "synth.rocks.families.rounded_polyhedron:ROUNDED_POLYHEDRON",
+        "ellipsoid": "synth.rocks.families.ellipsoid:ELLIPSOID",
+        "rounded-box": "synth.rocks.families.rounded_box:ROUNDED_BOX",
+        "perturbed": "synth.rocks.families.perturbed:PERTURBED",
+        "superellipsoid": "synth.rocks.families.superellipsoid:SUPERELLIPSOID",
+        "realistic": "synth.rocks.families.realistic:REALISTIC",
+        "scan": "synth.rocks.families.scan:SCAN",
+        "mixed": "synth.rocks.families.mixed:MIXED",
+    },
+)
 
 
 class RealismSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """How the rocks of the family `realistic` are broken and worn."""
+    """Fracture and wear of the rocks of the family `realistic`."""
 
     cuts: tuple[Cuts, Cuts] = (9, 16)  # main faces
     chips: tuple[Chips, Chips] = (10, 40)  # small cuts that take off corners and edges
@@ -62,15 +81,16 @@ class RealismSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True)
 
 
 class RocksSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """What lies on the ground. A pair is a range [low, high] that each rock's value is drawn from.
+    """Rocks of a scene. A pair is a range [low, high] from which each rock's value is drawn.
 
     `random` draws everything for each rock. The other series draw one form for a scene and spread
-    one knob over its range: `graded` the rounding at fixed half-axes; `sphericity` b/a and c/b at
-    a fixed rounding; `relief` the relief's RMS on one form.
+    one parameter over its range: `graded` the rounding at fixed half-axes; `sphericity` b/a and
+    c/b at a fixed rounding; `relief` the relief's RMS on one form. `options` are a registered
+    family's own.
     """
 
     count: Count = 6
-    family: Family = "rounded-polyhedron"
+    family: str = _DEFAULTS[0]
     series: Series = "graded"
     diameter_m: PositiveRange = (0.28, 0.42)  # 2a, the longest side of the smallest box
     b_over_a: AxisRatioRange = (0.72, 0.92)
@@ -85,9 +105,10 @@ class RocksSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     realism: RealismSpec = RealismSpec()
     albedo: RatioRange = (0.42, 0.62)
     spacing: Annotated[float, Meta(ge=1, le=10)] = 1.35  # least distance over the sum of radii
+    options: dict[str, Any] | UnsetType = UNSET  # not written to manifests unless it is given
 
     def __post_init__(self) -> None:
-        """Hold the ranges in order and the series to the families that have their knob."""
+        """Require ranges in rising order, and a known family that the series and options suit."""
         for name in (
             "diameter_m",
             "b_over_a",
@@ -100,12 +121,18 @@ class RocksSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
             "albedo",
         ):
             check_range(name, getattr(self, name))
-        if self.series in ("graded", "sphericity") and self.family not in _WITH_ROUNDING:
+        if (self.family, self.series) != _DEFAULTS or self.options is not UNSET:
+            self._check_family()
+
+    def _check_family(self) -> None:
+        try:
+            family = FAMILIES.find(self.family)
+        except SpecError as error:
+            raise ValueError(f"family: {error}") from error
+        if self.series not in family.series:
             raise ValueError(
-                f"series: {self.series!r} needs the family rounded-polyhedron or rounded-box, "
-                f'found {self.family!r} (set series = "random")'
+                f"series: expected one of {', '.join(family.series)} for the family "
+                f"{self.family!r}, found {self.series!r}"
             )
-        if self.series == "relief" and self.family == "mixed":
-            raise ValueError("series: 'relief' needs one family, found 'mixed'")
-        if self.family == "scan" and not self.scans:
-            raise ValueError("scans: expected mesh files for the family scan, found none")
+        family.check(self)
+        options_of("family", family, self.options)

@@ -1,8 +1,14 @@
 """The command line's contract: exit status 2 and 3 with one line, files where asked."""
 
+import argparse
+import shlex
+import subprocess
+import sys
+
 import pytest
 
 from rockshape.cli import main
+from synth import cli
 from synth.render import backends
 
 
@@ -12,6 +18,7 @@ from synth.render import backends
         (["scene", "--camera", "foo"], ["--camera", "imp", "msl-navcam", "'foo'"]),
         (["scene", "--renderer", "foo"], ["--renderer", "osmesa", "'foo'"]),
         (["scene", "--noise", "lidar"], ["--noise", "none", "stereo", "sgm", "'lidar'"]),
+        (["scene", "--camera", "msl-navcm"], ["did you mean 'msl-navcam'?"]),
         (["scene", "--rocks", "0"], ["--rocks", "found 0"]),
         (["scene", "--rocks", "501"], ["--rocks", "1 to 500", "found 501"]),
         (["scene", "--views", "501"], ["--views", "1 to 500", "found 501"]),
@@ -21,6 +28,7 @@ from synth.render import backends
         (["scene", "--jobs", "0"], ["--jobs"]),
         (["scene", "--spec", "absent.toml"], ["absent.toml", "TOML"]),
         (["shapes", "--series", "star"], ["--series", "roundness", "'star'"]),
+        (["shapes", "--series", "rondness", "--count", "3"], ["did you mean 'roundness'?"]),
         (["shapes", "--series", "roundness", "--count", "0"], ["--count"]),
         (["shapes", "--series", "roundness", "--seed", "-1"], ["--seed"]),
         (["shapes", "--series", "krumbein", "--count", "5"], ["--count", "81"]),
@@ -58,3 +66,30 @@ def test_shapes_are_written(tmp_path):
         "labels.png",
         "truth.csv",
     }
+
+
+@pytest.mark.parametrize("kind", [[], ["scene"], ["shapes"]])
+def test_help_has_two_examples_that_parse(capsys, kind):
+    with pytest.raises(SystemExit) as done:
+        main(["synth", *kind, "--help"])
+    assert done.value.code == 0
+    lines = capsys.readouterr().out.split("examples:\n")[1].splitlines()
+    commands = [shlex.split(line) for line in lines if line]
+    assert len(commands) == 2
+    parser = argparse.ArgumentParser()
+    cli.add_arguments(parser)
+    for command in commands:
+        assert command[:2] == ["rockshape", "synth"]
+        parser.parse_args(command[2:])
+
+
+def test_the_parser_needs_no_heavy_import():
+    script = (
+        "import argparse, sys\n"
+        "from synth import cli\n"
+        "cli.add_arguments(argparse.ArgumentParser())\n"
+        "print(*{'numpy', 'trimesh', 'cv2', 'scipy', 'pandas', 'skimage'} & set(sys.modules))\n"
+    )
+    command = [sys.executable, "-c", script]
+    found = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (found.returncode, found.stdout.strip()) == (0, "")

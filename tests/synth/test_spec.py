@@ -1,9 +1,14 @@
 """Specs: what is accepted, and complaints that name file and key."""
 
+from typing import Annotated
+
+import msgspec
 import pytest
+from msgspec import Meta, Struct, field
 
 from synth.errors import SpecError
 from synth.spec import SceneSpec, convert_spec, load_spec
+from synth.spec.complaint import complaint
 
 
 def test_empty_file_is_the_default(tmp_path):
@@ -26,6 +31,7 @@ def test_values_are_read(tmp_path):
     ("text", "key"),
     [
         ("sead = 3", "sead"),
+        ("[rocks]\ncount = true", "rocks.count"),
         ("[rocks]\ncount = 0", "rocks.count"),
         ("[rocks]\ndiameter_m = [0.4, 0.2]", "diameter_m"),
         ("[rocks]\nc_over_b = [0.001, 0.5]", "rocks.c_over_b"),
@@ -50,18 +56,44 @@ def test_complaints_name_file_and_key(tmp_path, text, key):
 @pytest.mark.parametrize(
     ("table", "words"),
     [
-        ({"sead": 3}, "sead: expected one of seed, scenes, "),
-        ({"rocks": {"realism": {"chip": 1}}}, "rocks.realism.chip: expected one of cuts, chips, "),
+        ({"sead": 3}, "unknown key 'sead'; did you mean 'seed'?"),
+        ({"rocks": {"cuont": 3}}, "unknown key 'cuont' in [rocks]; did you mean 'count'?"),
+        (
+            {"rocks": {"realism": {"chip": 1}}},
+            "unknown key 'chip' in [rocks.realism]; did you mean 'chips'?",
+        ),
+        (
+            {"sun": {"zenith": 3}},
+            "unknown key 'zenith' in [sun]; expected one of azimuth_deg, elevation_deg, ambient, ",
+        ),
         ({"rocks": {"family": "cube"}}, "rocks.family: expected one of rounded-polyhedron, "),
-        ({"surface": {"law": 1}}, "surface.law: expected str, found 1"),
+        ({"surface": {"law": 1}}, "surface.law: expected one of lambert, "),
+        (
+            {"surface": {"law": "lamber"}},
+            "surface.law: expected one of lambert, lommel-seeliger, lunar-lambert, "
+            "found 'lamber'; did you mean 'lambert'?",
+        ),
         ({"sensor": {"bits": 10}}, "sensor.bits: expected one of 8, 12, found 10"),
-        ({"rocks": {"albedo": [0.3, 2]}}, "rocks.albedo[1]: expected float <= 1.0, found 2"),
-        ({"rocks": {"count": "3"}}, "rocks.count: expected int, found '3'"),
-        ({"rocks": {"cuts": [9]}}, "rocks.cuts: expected array of length 2, found [9]"),
-        ({"rocks": 3}, "rocks: expected object, found 3"),
+        (
+            {"rocks": {"albedo": [0.3, 2]}},
+            "rocks.albedo[1]: expected a number above 0 and at most 1, found 2",
+        ),
+        ({"rocks": {"count": "3"}}, "rocks.count: expected an integer from 1 to 500, found '3'"),
+        (
+            {"rocks": {"cuts": [9]}},
+            "rocks.cuts: expected a list of 2 (an integer from 6 to 80), found [9]",
+        ),
+        ({"rocks": 3}, "rocks: expected a table, found 3"),
         ({"noise": {"window_px": 8}}, "noise.window_px: expected an odd number, found 8"),
-        ({"sensor": {"jpeg_quality": "a"}}, "sensor.jpeg_quality: expected int | null, found 'a'"),
-        (3, "expected object, found 3"),
+        (
+            {"sensor": {"jpeg_quality": "a"}},
+            "sensor.jpeg_quality: expected an integer from 1 to 100 or none, found 'a'",
+        ),
+        (
+            {"rocks": {"scans": ["a.ply", 3]}},
+            "rocks.scans[1]: expected text, found 3",
+        ),
+        (3, "expected a table, found 3"),
     ],
 )
 def test_complaints_tell_what_was_expected_and_found(table, words):
@@ -79,3 +111,50 @@ def test_files_that_are_no_toml(tmp_path, kind):
         path.write_bytes(b"\xff\xfe\x00")
     with pytest.raises(SpecError, match="expected a TOML file"):
         load_spec(path)
+
+
+class Circle(Struct, frozen=True, forbid_unknown_fields=True, tag_field="kind", tag="circle"):
+    radius: Annotated[float, Meta(gt=0)]
+
+
+class Polygon(Struct, frozen=True, forbid_unknown_fields=True, tag_field="kind", tag="polygon"):
+    corners: tuple[int, ...] = ()
+
+    def __post_init__(self) -> None:
+        if len(self.corners) < 3:
+            raise ValueError("corners: expected three or more")
+
+
+class Page(Struct, frozen=True, forbid_unknown_fields=True):
+    figures: Annotated[tuple[Circle | Polygon, ...], Meta(min_length=1)] = field(name="figure")
+
+
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        ({}, "figure: expected a value, found none"),
+        ({"figures": []}, "unknown key 'figures'; did you mean 'figure'?"),
+        ({"figure": []}, "figure: expected a list of at least 1 (a table or a table), found []"),
+        (
+            {"figure": [{"kind": "cicle"}]},
+            "figure[0].kind: expected one of circle, polygon, found 'cicle'; "
+            "did you mean 'circle'?",
+        ),
+        (
+            {"figure": [{"kind": "circle", "radius": 0}]},
+            "figure[0].radius: expected a number above 0, found 0",
+        ),
+        (
+            {"figure": [{"kind": "circle", "raduis": 1.0}]},
+            "unknown key 'raduis' in [figure[0]]; did you mean 'radius'?",
+        ),
+        (
+            {"figure": [{"kind": "circle", "radius": 1}, {"kind": "polygon", "corners": [1]}]},
+            "figure[1].corners: expected three or more",
+        ),
+    ],
+)
+def test_complaints_about_lists_of_tagged_tables(table, words):
+    with pytest.raises(msgspec.ValidationError):
+        msgspec.convert(table, Page)
+    assert complaint(table, Page) == words

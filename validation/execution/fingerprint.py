@@ -32,7 +32,10 @@ LEFT_OUT = frozenset(
     }
 )
 _NAME = re.compile(r"[A-Za-z0-9._-]+")
-_GROUP_PREFIX = "rockshape."  # of the entry points by which others add to the packages
+_GROUP_PREFIXES = (
+    "rockshape.",
+    "synth.",
+)  # of the entry points by which others add to the packages
 
 
 def loadable_files(root: Path, *, left_out: Collection[str]) -> Iterator[tuple[str, Path]]:
@@ -73,7 +76,7 @@ def _plugins(distribution: Distribution) -> set[str]:
     if _normal(distribution.metadata["Name"]) == "rockshape":
         return set()
     points = distribution.entry_points
-    return {p.module.partition(".")[0] for p in points if p.group.startswith(_GROUP_PREFIX)}
+    return {p.module.partition(".")[0] for p in points if p.group.startswith(_GROUP_PREFIXES)}
 
 
 def _sources(module: str) -> Iterator[bytes]:

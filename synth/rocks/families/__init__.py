@@ -1,0 +1,1 @@
+"""The package's rock families, one record a file; `synth.spec.rocks` lists their names."""

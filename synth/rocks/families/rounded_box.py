@@ -1,0 +1,26 @@
+"""Rounded boxes, box ⊕ ball."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from synth.rocks.family import Family
+from synth.rocks.record import RockModel
+from synth.rocks.rounded import rounded_box
+from synth.spec.rocks import RocksSpec
+
+Floats = NDArray[np.float64]
+
+
+def _draw(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> RockModel:
+    return rounded_box(half_axes_m, rounding=rng.uniform(*spec.rounding))
+
+
+def _grade(
+    _: RocksSpec, targets: Sequence[tuple[Floats, float]], __: np.random.Generator
+) -> list[RockModel]:
+    return [rounded_box(half_axes_m, rounding=rounding) for half_axes_m, rounding in targets]
+
+
+ROUNDED_BOX = Family("rounded-box", "boxes ⊕ ball", draw=_draw, grade=_grade, truth="exact")

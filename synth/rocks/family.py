@@ -1,0 +1,81 @@
+"""Rock family record: how its rocks are drawn, and what a spec may ask of it."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from msgspec import Struct
+from numpy.typing import NDArray
+
+from synth.errors import SpecError
+from synth.rocks.record import RockModel
+from synth.spec.registry import options_of
+from synth.spec.rocks import FAMILIES, RocksSpec
+
+Floats = NDArray[np.float64]
+Draw = Callable[[RocksSpec, Floats, np.random.Generator], RockModel]
+Grade = Callable[[RocksSpec, Sequence[tuple[Floats, float]], np.random.Generator], list[RockModel]]
+
+
+@dataclass(frozen=True, eq=False)
+class Family:
+    """A family of rocks.
+
+    `draw` returns one rock from the spec, the half-axes (3,) wanted, a >= b >= c in metres, and
+    random numbers. `grade` returns one form in several pairs of half-axes and rounding (edge
+    radius over inradius), in their order: the series `graded` and `sphericity` need it.
+    A family with `members` has neither: its rocks are of its members in turn.
+    """
+
+    name: str
+    title: str  # one line, for lists
+    draw: Draw | None = None
+    grade: Grade | None = None
+    members: tuple[str, ...] = ()
+    truth: Literal["exact", "mesh"] = "mesh"  # closed forms; or the mesh is the body
+    always_rough: bool = False  # has relief whether or not the spec asks for it
+    limits: Callable[[RocksSpec], None] | None = None  # raises ValueError, see `check`
+    options: type[Struct] | None = None  # of the table [rocks.options]
+
+    @property
+    def series(self) -> tuple[str, ...]:
+        """The series that it can be graded in."""
+        graded = () if self.grade is None else ("graded", "sphericity")
+        return (*graded, *(() if self.members else ("relief",)), "random")
+
+    def check(self, spec: RocksSpec) -> None:
+        """Raise ValueError, its text beginning with the key, where the spec lacks something."""
+        if self.limits is not None:
+            self.limits(spec)
+
+
+def find_family(name: str) -> Family:
+    """Rock family of a name.
+
+    Raises:
+        InputError: no family has the name, or what has it is no `Family`.
+    """
+    found = FAMILIES.find(name)
+    if not isinstance(found, Family):
+        raise SpecError(f"rock family {name!r}: expected a Family, found {found!r}")
+    return found
+
+
+def register_family(family: Family) -> Family:
+    """Add a rock family to this process and to the worker processes that it starts.
+
+    Raises:
+        InputError: the name is taken by a family of the package or of an entry point.
+    """
+    FAMILIES.register(family)
+    return family
+
+
+def family_options(spec: RocksSpec) -> Struct | None:
+    """Options of the spec's family, of its own struct; None where it has none.
+
+    Raises:
+        InputError: a key or value that the family does not allow.
+    """
+    return options_of("family", find_family(spec.family), spec.options)

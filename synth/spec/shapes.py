@@ -1,0 +1,6 @@
+"""Parameters of drawn shapes: the names of the series and the pen's jitter."""
+
+CHART = "krumbein"
+SERIES_NAMES = ("roundness", "sphericity", "both", CHART)
+JITTER_RMS_PX = 0.35
+MAX_JITTER_PX = 5.0

@@ -18,14 +18,14 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib import pyplot as plt
 
-from rockshape.ground import fit_ground
+from rockshape.ground import Ground
 from rockshape.io import read_camera, read_image, read_range
 from rockshape.observation import Observation
 from rockshape.outline.trace import trace_outline
-from rockshape.segmentation import Segmentation, segment
+from rockshape.segmentation import Segmentation, ground_under, segment
 from rockshape.segmentation.by_image.ground_appearance import read_lightness
-from rockshape.segmentation.by_range.height_signal import relief_of, standing
-from rockshape.segmentation.robust import find_by_range, pixel_rad
+from rockshape.segmentation.by_range.height_signal import HeightSignal, standing
+from rockshape.segmentation.robust import find_by_range, heights_over
 from synth.dataset.write import write_common, write_scene
 from synth.render import choose_backend
 from synth.spec import convert_spec
@@ -76,10 +76,17 @@ def median_ms(work: Callable[[], object]) -> float:
 
 def by_range(observation: Observation) -> np.ndarray:
     """Ground and rocks from range alone."""
-    assert observation.points_m is not None
-    ground = fit_ground(observation.points_m, pixel_rad=pixel_rad(observation))
+    ground, heights = stand(observation)
+    return find_by_range(heights, ground)
+
+
+def stand(observation: Observation) -> tuple[Ground, HeightSignal]:
+    """Ground of an observation with range, and the heights over it."""
+    ground = ground_under(observation, variant="robust")
     assert ground is not None
-    return find_by_range(relief_of(observation.points_m, ground), ground)
+    heights = heights_over(observation, ground)
+    assert heights is not None
+    return ground, heights
 
 
 def print_times() -> None:
@@ -129,10 +136,7 @@ def outlined(observation: Observation, found: Segmentation) -> np.ndarray:
 def draw_steps(path: Path) -> None:
     """Draw the steps of the robust way on a crowded field whose pictures were matched."""
     observation = make(0.2, noise="sgm")
-    assert observation.points_m is not None
-    ground = fit_ground(observation.points_m, pixel_rad=pixel_rad(observation))
-    assert ground is not None
-    relief = relief_of(observation.points_m, ground)
+    ground, relief = stand(observation)
     lightness = read_lightness(observation.image)
     labels = find_by_range(relief, ground)
     colours = np.random.default_rng(3).uniform(0.25, 1, (int(labels.max()) + 1, 3))

@@ -16,7 +16,7 @@ from rockshape.outline.descriptors import Descriptors
 if TYPE_CHECKING:
     import pandas as pd
 
-    from rockshape.ground import Plane
+    from rockshape.ground import Ground
     from rockshape.segmentation import FoundRock
 
 
@@ -78,7 +78,7 @@ class Measurement:
     method: str  # its name
     measures: tuple[Measure, ...]  # in the order of the table
     labels: NDArray[np.int32]  # (rows, cols), 0 the ground
-    ground: "Plane | None"
+    ground: "Ground | None"
     rocks: tuple[Rock, ...]  # in the order of their numbers
     found: "tuple[FoundRock, ...]" = ()  # how each was found, likewise; empty with given labels
     described: bool = False  # whether the rocks have descriptors

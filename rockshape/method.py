@@ -21,7 +21,7 @@ from rockshape.measures import Measure
 from rockshape.rock.view import RockView
 
 if TYPE_CHECKING:
-    from rockshape.ground import Plane
+    from rockshape.ground import Ground
     from rockshape.observation import Observation
     from rockshape.segmentation import Segmentation
 
@@ -45,7 +45,7 @@ class Method:
 
     name: str
     segment: "Callable[[Observation], Segmentation]"  # its own finder
-    ground: "Callable[[Observation], Plane | None]"  # the ground under rocks that are given
+    ground: "Callable[[Observation], Ground | None]"  # the ground under rocks that are given
     fits: Callable[[RockView], Fits]
     measures: tuple[Measure, ...]  # in the order of the table
 
@@ -65,13 +65,13 @@ def _segment_robust(observation: "Observation") -> "Segmentation":
     return segment(observation, variant="robust")
 
 
-def _published_ground(observation: "Observation") -> "Plane | None":
+def _published_ground(observation: "Observation") -> "Ground | None":
     from rockshape.segmentation import ground_under  # noqa: PLC0415
 
     return ground_under(observation, variant="paper")
 
 
-def _robust_ground(observation: "Observation") -> "Plane | None":
+def _robust_ground(observation: "Observation") -> "Ground | None":
     from rockshape.segmentation import ground_under  # noqa: PLC0415
 
     return ground_under(observation, variant="robust")

@@ -19,7 +19,7 @@ from rockshape.rock.view import RockView
 from rockshape.rock.visibility import visible_fraction
 
 if TYPE_CHECKING:
-    from rockshape.ground import Plane
+    from rockshape.ground import Ground
     from rockshape.segmentation import FoundRock
 
 
@@ -70,7 +70,7 @@ class _Scene:
     frame: tuple[slice, slice]  # rows and columns in which rocks could be found
     camera: Camera | None
     points_m: NDArray[np.float64] | None = None  # (rows, cols, 3)
-    ground: "Plane | None" = None
+    ground: "Ground | None" = None
     noise: RangeNoise | None = None
 
 
@@ -92,7 +92,7 @@ def _find(
         else:
             ground, frame = method.ground(observation), _whole(labels.shape)
         if ground is not None and points_m is not None:
-            noise = estimate_range_noise(points_m, ground, labels != 0)
+            noise = estimate_range_noise(points_m, ground.plane, labels != 0)
     scene = _Scene(
         labels=labels,
         frame=frame,

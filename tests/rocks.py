@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.camera.camera import Camera
-from rockshape.ground import Plane
+from rockshape.ground import Ground, Plane
 from rockshape.rock.view import RockView
 from tests import solids
 
@@ -43,7 +43,7 @@ def lumpy_rock(*, roll_rad: float = 0.0, focal_px: float = 900.0) -> RockView:
         corner=(int(rows[0]), int(cols[0])),
         grid_m=rock[window],
         camera=camera,
-        ground=_plane(roll @ UP, GROUND_M),
+        ground=_ground(roll @ UP, GROUND_M),
         frame=(slice(0, camera.height), slice(0, camera.width)),
     )
 
@@ -56,13 +56,13 @@ def _turn(angle_rad: float) -> NDArray[np.float64]:
     return about_y @ tip
 
 
-def _plane(normal: NDArray[np.float64], offset_m: float) -> Plane:
-    return Plane(normal=normal, offset_m=offset_m, sigma_m=0.002, accepted=0.9)
+def _ground(normal: NDArray[np.float64], offset_m: float) -> Ground:
+    return Ground(Plane(normal=normal, offset_m=offset_m, sigma_m=0.002, accepted=0.9))
 
 
 def _known(
     view: RockView,
-) -> tuple[NDArray[np.float64], Camera, Plane, tuple[slice, slice]]:
+) -> tuple[NDArray[np.float64], Camera, Ground, tuple[slice, slice]]:
     """What a lumpy rock always has."""
     if view.grid_m is None or view.camera is None or view.ground is None or view.frame is None:
         raise ValueError("a rock with range, camera, ground and frame is wanted")
@@ -106,7 +106,7 @@ def mirrored(view: RockView) -> RockView:
             width=camera.width,
             height=camera.height,
         ),
-        ground=_plane(ground.normal * flip, ground.offset_m),
+        ground=_ground(ground.plane.normal * flip, ground.plane.offset_m),
         frame=frame,
     )
 
@@ -128,7 +128,7 @@ def quarter_turned(view: RockView) -> RockView:
             width=camera.height,
             height=camera.width,
         ),
-        ground=_plane(turn @ ground.normal, ground.offset_m),
+        ground=_ground(turn @ ground.plane.normal, ground.plane.offset_m),
         frame=(frame[1], frame[0]),
     )
 
@@ -141,7 +141,7 @@ def enlarged(view: RockView, *, factor: float) -> RockView:
         corner=view.corner,
         grid_m=grid * factor,
         camera=camera,
-        ground=_plane(ground.normal, ground.offset_m * factor),
+        ground=_ground(ground.plane.normal, ground.plane.offset_m * factor),
         frame=frame,
     )
 

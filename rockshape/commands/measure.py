@@ -160,7 +160,7 @@ def _summary(observation: Observation, measurement: Measurement) -> str:
     whole = sum(not rock.reason for rock in measurement.rocks)
     parts = [f"{len(measurement.rocks)} rocks, {whole} with all measures"]
     if measurement.ground is not None:
-        parts.append(f"ground scatter {100 * measurement.ground.sigma_m:.2g} cm")
+        parts.append(f"ground scatter {100 * measurement.ground.plane.sigma_m:.2g} cm")
     if observation.resection is not None:
         residual = observation.resection.residual_px
         parts.append(f"camera resected from the range, residual {residual:.2f} px")

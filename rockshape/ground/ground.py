@@ -1,4 +1,4 @@
-"""The ground of an observation: plane, noise and, where it undulates, a smooth surface."""
+"""Ground record: plane, undulation and noise model, estimated once for an observation."""
 
 from dataclasses import dataclass, replace
 
@@ -18,20 +18,19 @@ MIN_POINTS = 50
 
 @dataclass(frozen=True, eq=False)
 class Ground:
-    """The ground as a plane, what undulates about it, and how far its heights scatter."""
+    """Ground surface under the rocks, and the noise of what is measured on it.
+
+    The published method's ground is the plane alone.
+    """
 
     plane: Plane
-    noise: Noise
+    noise: Noise | None = None  # None: not estimated, and range is taken to be exact
     swell: Swell | None = None  # None: the plane is all there is
 
     def height_m(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
         """Heights (...) above the ground of points (..., 3) in the camera frame."""
         height = self.plane.height_m(points_m)
         return height if self.swell is None else height - self.swell.height_m(points_m)
-
-    def slant(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
-        """|n . r| of points (..., 3), r the ray of z-depth 1: height per z-depth along the ray."""
-        return np.abs((points_m @ self.plane.normal) / points_m[..., 2])
 
 
 def fit_ground(points_m: NDArray[np.float64], *, pixel_rad: float) -> Ground | None:

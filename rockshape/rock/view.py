@@ -22,7 +22,7 @@ from rockshape.rock.visibility import touches_border
 from rockshape.surface import ResidualCurvature, Surface, fit_surface, measure_relief, view_patch
 
 if TYPE_CHECKING:
-    from rockshape.ground import Plane  # brings scipy.optimize, a fifth of a second
+    from rockshape.ground import Ground
 
 MIN_WIDTH_PX = 4.0
 NOISE_DRAWS = 4  # of errors like the range's, to tell what they alone would make of a surface
@@ -39,7 +39,7 @@ class RockView:
     corner: tuple[int, int] = (0, 0)  # row and column of the box's first pixel in the image
     grid_m: NDArray[np.float64] | None = None  # (rows, cols, 3) in the camera frame, or no range
     camera: Camera | None = None
-    ground: "Plane | None" = None
+    ground: "Ground | None" = None
     frame: tuple[slice, slice] | None = None  # rows and columns in which rocks can be seen
     noise: RangeNoise | None = None  # None: the range is taken to be exact
 
@@ -134,12 +134,12 @@ class RockView:
         rays = None
         if self.camera is not None:
             rays = grazing_rays(self.mask, self.corner, self.camera, self.grid_m)
-        ground = self.ground
+        plane = None if self.ground is None else self.ground.plane
         fit = fit_held_ellipsoid(
             self.points_m,
             point_sd_m=0.0 if self.noise is None else self.noise.depth_sd_m(self.points_m[:, 2]),
             silhouette=rays,
-            ground=None if ground is None else Resting(ground.normal, ground.offset_m),
+            ground=None if plane is None else Resting(plane.normal, plane.offset_m),
         )
         return None if fit is None or fit.bounded or not fit.converged else fit.ellipsoid
 

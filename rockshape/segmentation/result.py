@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.ground import Plane
+from rockshape.ground import Ground
 from rockshape.segmentation.edges.edge_snapping import SnappedOutline
 
 Branch = Literal["range", "image", "labels"]
@@ -28,6 +28,6 @@ class Segmentation:
     """Where the rocks of an observation are."""
 
     labels: NDArray[np.int32]  # (rows, cols), 0 the ground
-    ground: Plane | None
+    ground: Ground | None
     frame: tuple[slice, slice]  # rows and columns in which rocks could be found
     found: tuple[FoundRock, ...]  # in the order of their numbers

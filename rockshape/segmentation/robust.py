@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.errors import InputError
-from rockshape.ground import Ground, Plane, fit_ground, fit_plane
+from rockshape.ground import Ground, fit_ground, fit_plane
 from rockshape.observation import Observation
 from rockshape.rock.visibility import measured_frame
 from rockshape.segmentation.by_image.image_branch import find_by_image
@@ -39,23 +39,29 @@ def segment(observation: Observation, *, variant: Variant) -> Segmentation:
     return _by_range_and_image(observation)
 
 
-def ground_under(observation: Observation, *, variant: Variant) -> Plane | None:
-    """The plane of the ground alone, for rocks that others have found; None without range."""
+def ground_under(observation: Observation, *, variant: Variant) -> Ground | None:
+    """Ground under rocks that others have found; None without range, or where none is seen."""
+    if observation.points_m is None:
+        return None
     if variant == "paper":
-        return None if observation.points_m is None else fit_plane(observation.points_m)
-    ground, _ = _stand(observation)
-    return None if ground is None else ground.plane
+        return _published_ground(observation.points_m)
+    return fit_ground(observation.points_m, pixel_rad=pixel_rad(observation))
+
+
+def _published_ground(points_m: NDArray[np.float64]) -> Ground | None:
+    plane = fit_plane(points_m)
+    return None if plane is None else Ground(plane)
 
 
 def _by_paper(observation: Observation) -> Segmentation:
     points_m = observation.points_m
     if points_m is None:
         raise InputError(NO_RANGE)
-    ground = fit_plane(points_m)
+    ground = _published_ground(points_m)
     if ground is None:
         return _nothing(observation)
     height_m = ground.height_m(points_m)
-    labels = segment_heights(height_m, sigma_m=ground.sigma_m)
+    labels = segment_heights(height_m, sigma_m=ground.plane.sigma_m)
     found = tuple(FoundRock(number, "range") for number in range(1, int(labels.max()) + 1))
     return Segmentation(labels, ground, measured_frame(np.isfinite(height_m)), found)
 
@@ -72,7 +78,8 @@ def _whole(observation: Observation) -> tuple[slice, slice]:
 
 
 def _by_range_and_image(observation: Observation) -> Segmentation:
-    ground, relief = _stand(observation)
+    ground = ground_under(observation, variant="robust")
+    relief = None if ground is None else heights_over(observation, ground)
     frame = _whole(observation)
     if ground is None or relief is None:
         by_range = np.zeros(observation.image.shape, dtype=np.int32)
@@ -89,7 +96,7 @@ def _by_range_and_image(observation: Observation) -> Segmentation:
         found.append(FoundRock(number, branch, (), outlines.get(before)))
     flags = flag(observation.image, numbered, relief, frame=frame)
     told = tuple(FoundRock(one.number, one.branch, flags[one.number], one.outline) for one in found)
-    return Segmentation(numbered, None if ground is None else ground.plane, frame, told)
+    return Segmentation(numbered, ground, frame, told)
 
 
 def _at_edges(
@@ -102,11 +109,11 @@ def _at_edges(
     return snapped(observation.image, labels, relief, texture=texture)
 
 
-def _stand(observation: Observation) -> tuple[Ground | None, HeightSignal | None]:
-    if observation.points_m is None:
-        return None, None
-    ground = fit_ground(observation.points_m, pixel_rad=pixel_rad(observation))
-    return ground, None if ground is None else relief_of(observation.points_m, ground)
+def heights_over(observation: Observation, ground: Ground) -> HeightSignal | None:
+    """Heights over the ground in units of their noise; None without range or noise model."""
+    if observation.points_m is None or ground.noise is None:
+        return None
+    return relief_of(observation.points_m, ground, ground.noise)
 
 
 def find_by_range(relief: HeightSignal, ground: Ground) -> Labels:
@@ -114,7 +121,6 @@ def find_by_range(relief: HeightSignal, ground: Ground) -> Labels:
     labels = split(
         relief,
         standing(relief),
-        depth_sigma_m=ground.noise.depth_m(relief.depth_m),
         flattest=FLATTEST if ground.swell is None else FLATTEST_ON_WAVES,
     )
     return renumber(labels, dropped=np.empty(0, dtype=np.intp))

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.ground import Ground
+from rockshape.ground import Ground, Noise
 
 Singles = NDArray[np.float32]
 Mask = NDArray[np.bool_]
@@ -25,13 +25,14 @@ class HeightSignal:
     height_m: Singles  # 0 where nothing was measured
     depth_m: Singles  # z-depth, 0 where nothing was measured
     sigma_m: Singles  # standard deviation of the ground's height there
+    depth_sd_m: Singles  # standard deviation of the z-depth
     signal: Singles  # height over sigma, smoothed by a median; 0 where nothing was measured
     known: Mask
     pixel_rad: float  # a pixel's angle
     fine: bool  # whether range is exact beside its pixels, and its edges the rocks'
 
 
-def relief_of(points_m: NDArray[np.float64], ground: Ground) -> HeightSignal:
+def relief_of(points_m: NDArray[np.float64], ground: Ground, noise: Noise) -> HeightSignal:
     """Heights of points (rows, cols, 3), NaN where unknown, in units of the noise there.
 
     The noise of a height is the ground's: its roughness, and the range's, which grows with the
@@ -44,13 +45,20 @@ def relief_of(points_m: NDArray[np.float64], ground: Ground) -> HeightSignal:
     height[~known], depth[~known] = 0.0, 0.0
     above = np.abs(height + np.float32(ground.plane.offset_m))
     with np.errstate(divide="ignore", invalid="ignore"):
-        sigma = ground.noise.height_m(depth, np.where(known, above / depth, 0)).astype(np.float32)
+        sigma = noise.height_m(depth, np.where(known, above / depth, 0)).astype(np.float32)
     sigma[~known] = 1.0
-    fine = bool(known.any()) and ground.noise.is_fine(float(np.median(depth[known])))
+    fine = bool(known.any()) and noise.is_fine(float(np.median(depth[known])))
     signal = height / sigma if fine else cv2.medianBlur(height / sigma, MEDIAN_PX)
     signal[~known] = 0.0
     return HeightSignal(
-        height, depth, sigma, np.asarray(signal, np.float32), known, ground.noise.pixel_rad, fine
+        height_m=height,
+        depth_m=depth,
+        sigma_m=sigma,
+        depth_sd_m=noise.depth_m(depth).astype(np.float32),
+        signal=np.asarray(signal, np.float32),
+        known=known,
+        pixel_rad=noise.pixel_rad,
+        fine=fine,
     )
 
 

@@ -50,18 +50,15 @@ class _Borders:
     jumps: Floats  # (b,), share of the border's links that jump
 
 
-def split(
-    relief: HeightSignal, mask: Mask, *, depth_sigma_m: NDArray[np.floating], flattest: float
-) -> NDArray[np.int32]:
+def split(relief: HeightSignal, mask: Mask, *, flattest: float) -> NDArray[np.int32]:
     """Labels (rows, cols) from 1 of the rocks in a mask of what stands on the ground.
 
-    depth_sigma_m (rows, cols) is the standard deviation of the depth. Heights are smoothed by a
-    median over 5 pixels. Two tops are one where the lower one stands less than 4 standard
-    deviations or a tenth of its height above the saddle between them and the way over it does not
-    jump; of what is left, two are one unless the valley is as deep as a quarter of the lower one's
-    height or half of the common border jumps in depth. Regions under five pixels wide, which noise
-    leaves along steep sides, go to the neighbour with the longest common border; those less than
-    `flattest` as high as wide are swellings of the ground and dropped.
+    Heights are smoothed by a median over 5 pixels. Two tops are one where the lower one stands less
+    than 4 standard deviations or a tenth of its height above the saddle between them and the way
+    over it does not jump; of what is left, two are one unless the valley is as deep as a quarter of
+    the lower one's height or half of the common border jumps in depth. Regions under five pixels
+    wide, which noise leaves along steep sides, go to the neighbour with the longest common border;
+    those less than `flattest` as high as wide are swellings of the ground and dropped.
     """
     pixels = np.flatnonzero(mask)
     labels = np.zeros(mask.shape, dtype=np.int32)
@@ -70,7 +67,7 @@ def split(
     smooth = np.asarray(cv2.medianBlur(relief.height_m, SMOOTH_PX), dtype=np.float32)
     height = smooth.ravel()[pixels]
     sigma = relief.sigma_m.ravel()[pixels]
-    links = _link(relief, mask, pixels, depth_sigma_m=depth_sigma_m)
+    links = _link(relief, mask, pixels)
     order = np.argsort(height, kind="stable")
     _, region = np.unique(_climb(order, links), return_inverse=True)
     for share in (BUMP_SHARE, VALLEY_SHARE):
@@ -82,9 +79,7 @@ def split(
     return _without_flat(labels, relief, flattest)
 
 
-def _link(
-    relief: HeightSignal, mask: Mask, pixels: Whole, *, depth_sigma_m: NDArray[np.floating]
-) -> _Links:
+def _link(relief: HeightSignal, mask: Mask, pixels: Whole) -> _Links:
     """Neighbours within the mask, 8-connected, and whether the depth jumps between them."""
     cols = mask.shape[1] + 2
     number = np.full((mask.shape[0] + 2, cols), -1, dtype=np.intp)
@@ -95,7 +90,7 @@ def _link(
     depth = cv2.medianBlur(relief.depth_m, 3).ravel()[pixels]
     depth = np.where(relief.known.ravel()[pixels], depth, np.float32(np.nan))
     limit = np.maximum(
-        JUMP_SIGMA * depth_sigma_m.ravel()[pixels], JUMP_PIXELS * relief.pixel_rad * depth
+        JUMP_SIGMA * relief.depth_sd_m.ravel()[pixels], JUMP_PIXELS * relief.pixel_rad * depth
     )
     first, second = [], []
     for down, right in STEPS:

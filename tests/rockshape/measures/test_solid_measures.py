@@ -5,7 +5,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from rockshape.ground import Plane
+from rockshape.ground import Ground, Plane
 from rockshape.ground.pixel_noise import RangeNoise
 from rockshape.measures import Reason, angularity_3d, ellipsoid_error, sphericity_3d
 from rockshape.rock.view import RockView
@@ -23,7 +23,7 @@ def view(
 ) -> RockView:
     mask = np.isfinite(grid).all(axis=-1)
     low = UP @ CENTRE - np.linalg.norm(HALF_AXES * (AXES @ UP))
-    ground = Plane(normal=UP, offset_m=float(scale * low), sigma_m=0.0, accepted=1.0)
+    ground = Ground(Plane(normal=UP, offset_m=float(scale * low), sigma_m=0.0, accepted=1.0))
     return RockView(
         mask=mask, grid_m=scale * grid, camera=solids.CAMERA, ground=ground, noise=noise
     )

@@ -103,7 +103,8 @@ def test_a_rock_on_the_border_is_found_and_flagged() -> None:
     shifted[:, : cut.shape[1]] = cut
     ground = fit_ground(points, pixel_rad=1 / solids.CAMERA.fx)
     assert ground is not None
-    labels = find_by_range(relief_of(shifted, ground), ground)
+    assert ground.noise is not None
+    labels = find_by_range(relief_of(shifted, ground, ground.noise), ground)
     assert labels[:, 0].any()
 
 

@@ -10,7 +10,6 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from rockshape.camera.camera import Camera
-from rockshape.ground import fit_ground
 from rockshape.io import read_camera, read_image, read_range
 from rockshape.observation import Observation
 from rockshape.segmentation import Segmentation, segment
@@ -102,12 +101,11 @@ def _segment(
     return Segmented(
         made.labels,
         outlines,
-        _ground_sigmas(way, observation, truth, made=made, experiment=experiment),
+        _ground_sigmas(observation, truth, made=made, experiment=experiment),
     )
 
 
 def _ground_sigmas(
-    way: str,
     observation: Observation,
     truth: ViewTruth,
     *,
@@ -119,17 +117,12 @@ def _ground_sigmas(
     sigma_h = sigma_Z |n . r|, with sigma_Z = Z^2 sigma_d/(f B) of the camera, be the range exact or
     not.
     """
-    points, camera = observation.points_m, observation.camera
-    if points is None or camera is None:
+    camera, ground = observation.camera, made.ground
+    if camera is None or ground is None:
         return float("nan")
-    ground = fit_ground(points, pixel_rad=1 / camera.fx) if way == "robust" else None
-    plane = made.ground
-    if plane is None:
-        return float("nan")
-    height = plane.height_m(truth.ground_m) if ground is None else ground.height_m(truth.ground_m)
-    return float(
-        np.sqrt(np.mean((height / _sigma_h(truth.ground_m, plane.normal, camera, experiment)) ** 2))
-    )
+    height = ground.height_m(truth.ground_m)
+    sigma = _sigma_h(truth.ground_m, ground.plane.normal, camera, experiment)
+    return float(np.sqrt(np.mean((height / sigma) ** 2)))
 
 
 def _sigma_h(

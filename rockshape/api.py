@@ -5,7 +5,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from rockshape.camera.camera import Camera
 from rockshape.errors import InputError
-from rockshape.io.grey import to_grey
+from rockshape.io.pixels import to_grey
 from rockshape.measurement import Measurement
 from rockshape.method import Method
 from rockshape.observation import Observation

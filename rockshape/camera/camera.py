@@ -1,22 +1,51 @@
-"""The pinhole camera: pixels to rays and back.
+"""Pinhole camera model: projection and unprojection.
 
 Frame: x right, y down, z forward; whole pixel coordinates are pixel centres, (0, 0) the centre of
 the upper-left pixel.
 """
 
 from dataclasses import dataclass
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.errors import InputError
 
+INTRINSICS = ("fx", "fy", "cx", "cy")
+
+
+@runtime_checkable
+class PinholeLike(Protocol):
+    """Any object with the intrinsics of a pinhole camera, px.
+
+    It may have `width` and `height`, px, `depth_scale`, mm a step of integer range, and
+    `distortion`, coefficients that must all be zero.
+    """
+
+    @property
+    def fx(self) -> float:
+        """Focal length along the rows, px."""
+
+    @property
+    def fy(self) -> float:
+        """Focal length along the columns, px."""
+
+    @property
+    def cx(self) -> float:
+        """Column of the principal point, px."""
+
+    @property
+    def cy(self) -> float:
+        """Row of the principal point, px."""
+
 
 @dataclass(frozen=True)
 class Camera:
-    """Intrinsics of a camera without distortion.
+    """Intrinsics of a pinhole camera without distortion.
 
-    Raises InputError where a focal length or a side is not positive.
+    Raises InputError where a focal length or a side is not positive, or the principal point not
+    finite.
     """
 
     fx: float  # px
@@ -28,6 +57,11 @@ class Camera:
     depth_scale: float | None = None  # mm for one unit of a 16-bit depth image, as in BOP
 
     def __post_init__(self) -> None:
+        for name in ("cx", "cy"):
+            if not np.isfinite(getattr(self, name)):
+                raise InputError(
+                    f"camera: {name}: expected a finite number, found {getattr(self, name)}"
+                )
         for name in ("fx", "fy", "width", "height", "depth_scale"):
             value = getattr(self, name)
             if value is not None and not (np.isfinite(value) and value > 0):
@@ -35,11 +69,11 @@ class Camera:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Rows and columns of the images this camera takes."""
+        """Rows and columns of the camera's images."""
         return self.height, self.width
 
     def unproject(self, depth_m: NDArray[np.floating]) -> NDArray[np.float64]:
-        """Points seen at each pixel: X = Z (u - cx)/fx, Y = Z (v - cy)/fy.
+        """Point at each pixel: X = Z (u - cx)/fx, Y = Z (v - cy)/fy.
 
         depth_m is (rows, cols) z-depth, NaN where nothing was measured; the result is
         (rows, cols, 3) in the camera frame, metres.
@@ -47,7 +81,7 @@ class Camera:
         """
         if depth_m.shape != self.shape:
             raise InputError(
-                f"depth_m: expected {self.shape} as the camera says, found {depth_m.shape}"
+                f"depth_m: expected {self.shape} as the camera has, found {depth_m.shape}"
             )
         depth_m = np.asarray(depth_m, dtype=np.float64)
         x = (np.arange(self.width) - self.cx) / self.fx
@@ -64,3 +98,57 @@ class Camera:
             ],
             axis=-1,
         )
+
+
+def as_camera(like: object, *, shape: tuple[int, ...] | None = None) -> Camera:
+    """Camera of any object with fx, fy, cx and cy, see `PinholeLike`.
+
+    shape, the image's (rows, cols, ...), stands in where the object has no width and height.
+
+    Raises:
+        InputError: an intrinsic is missing or no number; the size is told by neither; or the lens
+            distorts, so that image, range and labels must be undistorted first.
+    """
+    if isinstance(like, Camera):
+        return like
+    missing = [name for name in INTRINSICS if getattr(like, name, None) is None]
+    if missing:
+        raise InputError(
+            f"camera: expected an object with fx, fy, cx, cy, "
+            f"found {type(like).__name__} without {', '.join(missing)}"
+        )
+    distortion = getattr(like, "distortion", None)
+    if distortion is not None and np.any(np.asarray(distortion) != 0):
+        raise InputError(
+            f"camera: distortion: expected a pinhole camera, its image, range and labels "
+            f"undistorted, found {distortion}"
+        )
+    height, width = getattr(like, "height", None), getattr(like, "width", None)
+    if height is None and width is None and shape is not None:
+        height, width = shape[:2]
+    depth_scale = getattr(like, "depth_scale", None)
+    fx, fy, cx, cy = (_number(name, getattr(like, name)) for name in INTRINSICS)
+    return Camera(
+        fx=fx,
+        fy=fy,
+        cx=cx,
+        cy=cy,
+        width=_pixels("width", width),
+        height=_pixels("height", height),
+        depth_scale=None if depth_scale is None else _number("depth_scale", depth_scale),
+    )
+
+
+def _number(name: str, value: object) -> float:
+    if isinstance(value, (int, float, np.number)):
+        return float(value)
+    raise InputError(f"camera: {name}: expected a number, found {value!r}")
+
+
+def _pixels(name: str, value: object) -> int:
+    if value is None:
+        raise InputError(f"camera: {name}: expected the image's, px, found none")
+    number = _number(name, value)
+    if not number.is_integer():
+        raise InputError(f"camera: {name}: expected a whole number, found {value!r}")
+    return int(number)

@@ -1,7 +1,5 @@
-"""Files in and out: the rim of the package, where paths become arrays."""
+"""File input and output: one registry of formats, a reader and a writer for each kind of file."""
 
-from rockshape.io.cameras import read_camera
-from rockshape.io.images import read_image, read_labels, write_image
-from rockshape.io.range import read_range
+import lazy_loader
 
-__all__ = ["read_camera", "read_image", "read_labels", "read_range", "write_image"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,35 +1,65 @@
-"""Reading and writing a file whole, and saying in one line what is wrong with it."""
+"""Whole-file reading and atomic writing, with one line for what is wrong."""
 
 import os
 import tempfile
+from collections.abc import Collection
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import IO
 
 from rockshape.errors import InputError
 
-
-def read_bytes(path: Path, *, what: str) -> bytes:
-    """Everything in a file. Raises InputError where it is missing, a folder, empty or locked."""
-    try:
-        data = path.read_bytes()
-    except FileNotFoundError:
-        raise InputError(f"{path}: expected {what}, found no such file") from None
-    except IsADirectoryError:
-        raise InputError(f"{path}: expected {what}, found a directory") from None
-    except OSError as error:
-        raise InputError(f"{path}: expected {what}, found {error.strerror}") from None
-    if not data:
-        raise InputError(f"{path}: expected {what}, found an empty file")
-    return data
+HEAD_BYTES = 2**16  # what content sniffing is shown
 
 
-def check_writable(path: Path, *, endings: tuple[str, ...]) -> None:
+@dataclass(frozen=True, eq=False)
+class InputFile:
+    """File to read; its bytes are read when first asked for."""
+
+    path: Path
+    expected: str = "a file"  # what it should be, for the messages
+
+    @cached_property
+    def head(self) -> bytes:
+        """First bytes. Raises InputError where the file is missing, a folder, empty or locked."""
+        return self._read(HEAD_BYTES)
+
+    @cached_property
+    def data(self) -> bytes:
+        """All bytes. Raises InputError as `head` does."""
+        return self._read(-1)
+
+    def _read(self, size: int) -> bytes:
+        try:
+            with self.path.open("rb") as stream:
+                data = stream.read(size)
+        except FileNotFoundError:
+            raise self.refusal("no such file") from None
+        except IsADirectoryError:
+            raise self.refusal("a directory") from None
+        except OSError as error:
+            raise self.refusal(error.strerror or "an unreadable file") from None
+        if not data:
+            raise self.refusal("an empty file")
+        return data
+
+    def refusal(self, found: str) -> InputError:
+        """Error that names the file, what was expected and what was found."""
+        return InputError(f"{self.path}: expected {self.expected}, found {found}")
+
+
+def check_writable(path: Path, *, suffixes: Collection[str]) -> None:
     """Raises InputError where a file cannot be written, before any work is done for it.
 
-    endings are those the path's name may have, `.png` for instance.
+    suffixes are those that the path's name may have, `.png` for instance.
     """
-    if path.suffix.lower() not in endings:
-        raise InputError(f"{path}: expected a name ending in {', '.join(endings)}")
+    suffix = path.suffix.lower()
+    if suffix not in suffixes:
+        raise InputError(
+            f"{path}: expected a name ending in {', '.join(suffixes)}, "
+            f"found {suffix or 'no suffix'}"
+        )
     if path.is_dir():
         raise InputError(f"{path}: expected a file to write, found a directory")
     folder = path.parent
@@ -44,7 +74,7 @@ def write_bytes(path: Path, data: bytes) -> None:
 
     Raises InputError where the system refuses: a full disk, a folder that takes no files.
     """
-    check_writable(path, endings=(path.suffix.lower(),))
+    check_writable(path, suffixes=(path.suffix.lower(),))
     try:
         with tempfile.NamedTemporaryFile(dir=path.parent, prefix=".", delete=False) as draft:
             _finish(path, draft, data)

@@ -87,7 +87,7 @@ def test_images_of_every_kind_are_drawn_alike(image: np.ndarray) -> None:
     measured = rockshape.measure(image, labels=DISC)
     assert np.isfinite(measured.rocks[0].values["axis_ratio"])
     grey = np.full(DISC.shape, 0.2, dtype=np.float32)
-    np.testing.assert_allclose(rockshape.io.grey.to_grey(image), grey, atol=1e-6)
+    np.testing.assert_allclose(rockshape.io.pixels.to_grey(image), grey, atol=1e-6)
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from rockshape.errors import InputError
-from rockshape.io import read_image, read_labels, read_range
+from rockshape.io import read_image, read_labels, read_pixels, read_range
+from rockshape.io.pixels import to_grey
 from rockshape.measurement import DESCRIPTORS, Measurement, columns, to_frame
 from rockshape.measures import PAPER
 from rockshape.method import methods
@@ -238,8 +239,8 @@ def test_sand_ripples_of_the_mars_frame_are_no_rocks(mars: Measurement) -> None:
 
 
 def test_gravel_with_its_masks_is_measured_without_range() -> None:
-    image = read_image(GRAINS_IMAGE)
-    labels = read_labels(GRAINS_LABELS, shape=image.shape)
+    image = to_grey(read_pixels(GRAINS_IMAGE))
+    labels = read_labels(GRAINS_LABELS, shape=image.shape).to_labels()
     frame = to_frame(measure(Observation(image=image), labels=labels))
     assert len(frame) == len(np.unique(labels)) - 1
     assert frame["axis_ratio"].between(0, 1).all()

@@ -109,7 +109,7 @@ def _drawing_view(unit: DrawingUnit, folder: Path) -> ViewCase:
     return ViewCase(
         place=RecordKey(experiment.name, "shapes", unit.series, unit.scene, seed, 0, ""),
         observation=Observation(image=image),
-        given=read_labels(folder / "labels.png", shape=image.shape),
+        given=read_labels(folder / "labels.png", shape=image.shape).to_labels(),
         instances=read_instances(folder / "labels.png"),
         truth=read_shape_truth(folder / "truth.csv").assign(eligible=True),
         min_iou=0.5,

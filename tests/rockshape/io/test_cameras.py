@@ -28,7 +28,7 @@ def test_a_lens_that_bends_nothing_is_a_pinhole(tmp_path: Path, none: object) ->
 
 
 def test_a_lens_that_bends_rays_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"camera\.json: distortion: .*straightened"):
+    with pytest.raises(InputError, match=r"camera\.json: distortion: .*undistorted"):
         read_camera(write(tmp_path, distortion=[-0.2, 0.05, 0.0, 0.0]))
 
 

@@ -1,0 +1,121 @@
+"""Measurement of one image from files to files, the work of `rockshape measure`."""
+
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from rockshape.commands.summary import summarise
+from rockshape.errors import InputError
+from rockshape.io import read_camera, read_labels, read_pixels, read_range, write_image, write_table
+from rockshape.io.files import check_writable, write_bytes
+from rockshape.io.pixels import to_grey
+from rockshape.io.registry import IMAGES, LABELS, TABLES
+from rockshape.measurement import Measurement, to_frame
+from rockshape.method import find_method
+from rockshape.observation import Observation
+from rockshape.pipeline import measure
+from rockshape.report.overlay import overlay
+from rockshape.rock.instances import Instances
+
+PAGES = (".html", ".htm")
+
+
+@dataclass(frozen=True)
+class MeasureOptions:
+    """What `rockshape measure` was asked for; None where a file was not named."""
+
+    image: Path
+    range: Path | None
+    camera: Path | None
+    labels: Path | None
+    method: str
+    descriptors: bool
+    flags: bool
+    out: Path | None
+    labels_out: Path | None
+    overlay: Path | None
+    report: Path | None
+
+
+def measure_image(options: MeasureOptions) -> None:
+    """Measure one image, write the outputs that were asked for and a summary to stderr.
+
+    Raises InputError for an input that cannot be used or an output that cannot be written; the
+    latter before any work is done.
+    """
+    method = find_method(options.method)
+    _check_outputs(options)
+    observation = _observe(options)
+    labels, encoded = None, None
+    if options.labels is not None:
+        labels = read_labels(
+            options.labels, shape=observation.image.shape, image_name=options.image.name
+        )
+        if options.labels_out is not None:
+            encoded = LABELS.encode(options.labels_out, labels)
+    measurement = measure(
+        observation,
+        method=method,
+        labels=None if labels is None else labels.to_labels(),
+        descriptors=options.descriptors,
+    )
+    if options.labels_out is not None and encoded is None:
+        found = Instances.from_labels(measurement.labels)
+        encoded = LABELS.encode(options.labels_out, found)
+    _write(options, observation, measurement, encoded)
+    print(summarise(observation, measurement), file=sys.stderr)
+
+
+def _check_outputs(options: MeasureOptions) -> None:
+    """Raises InputError for an output that cannot be written, is an input or is named twice."""
+    inputs = (options.image, options.range, options.camera, options.labels)
+    taken = [path.resolve() for path in inputs if path is not None]
+    for path in _outputs(options):
+        if path.resolve() in taken:
+            raise InputError(f"{path}: expected a file of its own, found one named before")
+        taken.append(path.resolve())
+    if options.out is not None:
+        TABLES.for_writing(options.out)
+    if options.labels_out is not None:
+        LABELS.for_writing(options.labels_out)
+    if options.overlay is not None:
+        IMAGES.for_writing(options.overlay)
+    if options.report is not None:
+        check_writable(options.report, suffixes=PAGES)
+
+
+def _outputs(options: MeasureOptions) -> Iterator[Path]:
+    paths = (options.out, options.labels_out, options.overlay, options.report)
+    return (path for path in paths if path is not None)
+
+
+def _observe(options: MeasureOptions) -> Observation:
+    image = to_grey(read_pixels(options.image))
+    camera = None if options.camera is None else read_camera(options.camera, shape=image.shape)
+    points_m = None
+    if options.range is not None:
+        points_m = read_range(options.range, shape=image.shape, camera=camera)
+    return Observation(image=image, points_m=points_m, camera=camera)
+
+
+def _write(
+    options: MeasureOptions,
+    observation: Observation,
+    measurement: Measurement,
+    encoded: bytes | None,
+) -> None:
+    frame = to_frame(measurement, flags=options.flags)
+    if options.out is None:
+        print(frame.to_csv(index=False, float_format="%.9g"), end="")
+    else:
+        write_table(options.out, frame)
+    if options.labels_out is not None and encoded is not None:
+        write_bytes(options.labels_out, encoded)
+    if options.overlay is not None:
+        write_image(options.overlay, overlay(observation.image, measurement))
+    if options.report is not None:
+        from rockshape.report.page import render_page  # noqa: PLC0415 - brings Jinja
+
+        page = render_page(options.image.name, observation.image, measurement)
+        write_bytes(options.report, page.encode())

@@ -1,0 +1,53 @@
+"""Summary line of a measurement: what was measured, what is missing and why."""
+
+from collections import Counter
+from collections.abc import Sequence
+
+from rockshape.measurement import Measurement, Rock
+from rockshape.measures import Measure, Reason
+from rockshape.observation import Observation
+
+NO_RANGE = "no range: 3-D measures are empty; give --range FILE (and --camera FILE for z-depth)"
+
+
+def summarise(observation: Observation, measurement: Measurement) -> str:
+    """Line on the rocks, the measures of each that are missing, the ground and the camera."""
+    parts = [_counted(len(measurement.rocks), "rock")]
+    flat = [each for each in measurement.measures if not each.needs_range]
+    solid = [each for each in measurement.measures if each.needs_range]
+    parts += _completeness("2-D", flat, measurement.rocks)
+    if observation.points_m is None and solid:
+        parts.append(NO_RANGE)
+    else:
+        parts += _completeness("3-D", solid, measurement.rocks)
+    if measurement.ground is not None:
+        parts.append(f"ground scatter {100 * measurement.ground.plane.sigma_m:.2g} cm")
+    if observation.resection is not None:
+        residual = observation.resection.residual_px
+        parts.append(f"camera resected from the range, residual {residual:.2f} px")
+    return "; ".join(parts)
+
+
+def _completeness(name: str, measures: Sequence[Measure], rocks: Sequence[Rock]) -> list[str]:
+    """Part of the line on the measures of one dimension; none where there is nothing to tell."""
+    if not measures or not rocks:
+        return []
+    lacking = [reasons for rock in rocks if (reasons := _reasons(rock, measures))]
+    if not lacking:
+        return [f"all {name} measures of each"]
+    counts = Counter(reason for reasons in lacking for reason in reasons)
+    why = ", ".join(f"{reason} {count}" for reason, count in counts.most_common())
+    complete = len(rocks) - len(lacking)
+    if not complete:
+        return [f"some {name} measures missing in every rock ({why})"]
+    return [f"all {name} measures of {complete}, some missing in {len(lacking)} ({why})"]
+
+
+def _reasons(rock: Rock, measures: Sequence[Measure]) -> set[Reason]:
+    """Reasons why measures of a rock are missing."""
+    readings = (rock.readings[measure.column] for measure in measures)
+    return {reading.reason for reading in readings if reading.reason is not None}
+
+
+def _counted(count: int, noun: str) -> str:
+    return f"{count or 'no'} {noun}{'' if count == 1 else 's'}"

@@ -1,0 +1,25 @@
+"""NumPy label images."""
+
+from typing import TYPE_CHECKING
+
+from rockshape.io.decoding.label_image import instances_of
+from rockshape.io.decoding.numpy_files import NPY_MAGIC, load_npy
+from rockshape.io.format import ImageInfo, LabelFormat, magic
+
+if TYPE_CHECKING:
+    from rockshape.io.files import InputFile
+    from rockshape.rock.instances import Instances
+
+
+def read_npy(file: "InputFile", _: ImageInfo) -> "Instances":
+    """Instances of an integer array (rows, cols). Raises InputError for any other array."""
+    return instances_of(file, load_npy(file))
+
+
+FORMAT = LabelFormat(
+    name="NPY",
+    suffixes=(".npy",),
+    summary="array (rows, cols) of whole numbers, a rock's id in each of its pixels",
+    sniff=magic(NPY_MAGIC),
+    read=read_npy,
+)

@@ -1,0 +1,5 @@
+"""Table formats, a file each."""
+
+from rockshape.io.tables import csv, json, parquet
+
+FORMATS = (csv.FORMAT, json.FORMAT, parquet.FORMAT)

@@ -28,7 +28,7 @@ def test_version_is_the_distributions():
     ("arguments", "line"),
     [
         ("mesure", "rockshape: unknown command 'mesure'; did you mean 'measure'?"),
-        ("zzz", "rockshape: unknown command 'zzz'; expected measure, synth or validate"),
+        ("zzz", "rockshape: unknown command 'zzz'; expected formats, measure, synth or validate"),
         ("--vresion", "rockshape: unknown option '--vresion'; did you mean '--version'?"),
         (
             "measure a.png --mehtod=paper",

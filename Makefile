@@ -1,6 +1,6 @@
 # `make demo` and `make test` each set up all they need first; a second run sets up nothing again.
 
-.PHONY: demo baseline compare test lint setup clean
+.PHONY: demo baseline compare test lint check-wheel setup clean
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 1)
 
@@ -24,6 +24,10 @@ lint: .venv/.ready
 	.venv/bin/ruff check
 	.venv/bin/mypy
 	.venv/bin/lint-imports
+
+# The wheel outside the checkout, on the oldest and the newest dependencies and on Python 3.13.
+check-wheel: .venv/.ready
+	tools/check_wheel.sh
 
 setup: .venv/.ready
 

@@ -10,9 +10,15 @@ class InputError(ValueError):
     exit_status = 2
 
 
+def did_you_mean(found: str, known: Iterable[str]) -> str:
+    """Clause "; did you mean 'x'?" with the nearest known name, empty where none is near."""
+    near = get_close_matches(found, list(known), n=1)
+    return f"; did you mean {near[0]!r}?" if near else ""
+
+
 def unknown_name(what: str, found: str, known: Iterable[str]) -> InputError:
     """Error for a name that a registry does not hold, with the nearest name that it does hold."""
     names = list(known)
-    near = get_close_matches(found, names, n=1)
-    hint = f"; did you mean {near[0]!r}?" if near else ""
-    return InputError(f"{what}: expected one of {', '.join(names)}, found {found!r}{hint}")
+    return InputError(
+        f"{what}: expected one of {', '.join(names)}, found {found!r}{did_you_mean(found, names)}"
+    )

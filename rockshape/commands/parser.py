@@ -1,9 +1,10 @@
 """Argument parser of the command line: one-line errors, suggestions for misspelt words."""
 
 import argparse
-import difflib
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any, NoReturn
+
+from rockshape.errors import did_you_mean
 
 EXAMPLES_HEADING = "examples:"
 
@@ -11,12 +12,6 @@ EXAMPLES_HEADING = "examples:"
 def examples(*lines: str) -> str:
     """Epilog of a help text that lists example command lines."""
     return "\n".join([EXAMPLES_HEADING, *(f"  {line}" for line in lines)])
-
-
-def suggestion(word: str, known: Iterable[str]) -> str:
-    """Clause "; did you mean 'x'?" for the nearest known word, empty where none is near."""
-    nearest = difflib.get_close_matches(word, list(known), n=1)
-    return f"; did you mean {nearest[0]!r}?" if nearest else ""
 
 
 class CommandParser(argparse.ArgumentParser):
@@ -43,7 +38,7 @@ class CommandParser(argparse.ArgumentParser):
         if unknown:
             word = unknown[0].partition("=")[0]
             kind = "option" if word.startswith("-") else "argument"
-            near = suggestion(word, self._option_string_actions) if kind == "option" else ""
+            near = did_you_mean(word, self._option_string_actions) if kind == "option" else ""
             self.error(f"unknown {kind} {word!r}{near}")
         return found, []
 
@@ -52,7 +47,7 @@ class CommandParser(argparse.ArgumentParser):
         if action.choices is None or value in action.choices:
             return
         known = [str(choice) for choice in action.choices]
-        near = suggestion(str(value), known)
+        near = did_you_mean(str(value), known)
         if action.option_strings:
             name = "/".join(action.option_strings)
             self.error(f"{name}: expected {_either(known)}, found {str(value)!r}{near}")

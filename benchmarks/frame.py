@@ -15,13 +15,14 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from rockshape import pipeline, segmentation
+from rockshape import pipeline
 from rockshape.io import read_camera, read_image, read_range
 from rockshape.measurement import to_frame
 from rockshape.measures import Measure
 from rockshape.method import methods
 from rockshape.observation import Observation
 from rockshape.rock import view as rock_view
+from rockshape.segmentation import published, robust
 from synth.dataset.write import write_common, write_scene
 from synth.render import choose_backend
 from synth.spec import SceneSpec
@@ -31,7 +32,7 @@ from synth.spec.view import CameraSpec, ViewsSpec
 ROCKS = 40
 SEED = 10005
 GOAL_S = 0.6
-STAGES = ("estimate_range_noise", "find_patches", "visible_fraction")
+STAGES = ("estimate_range_noise", "visible_fraction")
 FITS = (
     "trace_outline",
     "edge_of",
@@ -93,7 +94,12 @@ class Stopwatch:
 
 def watch(clock: Stopwatch) -> None:
     """Have the pipeline's stages, the fits and each measure's reading tell their seconds."""
-    for module, names in ((segmentation, ("segment",)), (pipeline, STAGES), (rock_view, FITS)):
+    for module, names in (
+        (robust, ("segment_both",)),
+        (published, ("segment_published",)),
+        (pipeline, STAGES),
+        (rock_view, FITS),
+    ):
         for name in names:
             setattr(module, name, clock.timed(name, getattr(module, name)))
     read = Measure.read

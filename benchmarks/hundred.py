@@ -27,19 +27,19 @@ import cv2
 from rockshape.outline.descriptors import describe_smooth
 from rockshape.measures import (
     angularity_2d, axis_ratio, ellipse_error, roundness, sphericity_2d)
-from rockshape.rock.patches import find_patches
+from rockshape.rock.instances import Instances
 from rockshape.rock.view import RockView
 modules = (axis_ratio, ellipse_error, sphericity_2d, angularity_2d, roundness)
 measures = [m.PAPER for m in modules[:4]] + [m.ROBUST for m in modules]
 labels = cv2.imread(sys.argv[1], cv2.IMREAD_UNCHANGED)
 with open(sys.argv[2], "w", newline="") as file:
     writer = csv.writer(file)
-    for patch in find_patches(labels):
+    for patch in Instances.from_labels(labels).largest_parts():
         rows, cols = patch.window
         rock = RockView(mask=patch.mask, corner=(rows.start, cols.start))
         values = [measure.read(rock).value for measure in measures]
         described = dataclasses.astuple(describe_smooth(rock.smooth_outline_px))
-        writer.writerow([patch.number, *values, *described])
+        writer.writerow([patch.id, *values, *described])
 """
 THEIRS = """
 import csv, sys

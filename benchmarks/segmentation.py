@@ -22,10 +22,10 @@ from rockshape.ground import Ground
 from rockshape.io import read_camera, read_image, read_range
 from rockshape.observation import Observation
 from rockshape.outline.trace import trace_outline
-from rockshape.segmentation import Segmentation, ground_under, segment
+from rockshape.segmentation import FINDERS, Segmentation
 from rockshape.segmentation.by_image.ground_appearance import read_lightness
 from rockshape.segmentation.by_range.height_signal import HeightSignal, standing
-from rockshape.segmentation.robust import find_by_range, heights_over
+from rockshape.segmentation.robust import find_by_range, ground_among_rocks, heights_over
 from synth.dataset.write import write_common, write_scene
 from synth.render import choose_backend
 from synth.spec import convert_spec
@@ -82,7 +82,7 @@ def by_range(observation: Observation) -> np.ndarray:
 
 def stand(observation: Observation) -> tuple[Ground, HeightSignal]:
     """Ground of an observation with range, and the heights over it."""
-    ground = ground_under(observation, variant="robust")
+    ground = ground_among_rocks(observation)
     assert ground is not None
     heights = heights_over(observation, ground)
     assert heights is not None
@@ -106,9 +106,9 @@ def print_times() -> None:
         floor = median_ms(lambda mask=mask: cv2.connectedComponentsWithStats(mask))
         ways: dict[str, Callable[[], object]] = {
             "ground and range": lambda o=observation: by_range(o),
-            "image alone": lambda o=blind: segment(o, variant="robust"),
-            "range, image and edges": lambda o=observation: segment(o, variant="robust"),
-            "as published": lambda o=observation: segment(o, variant="paper"),
+            "image alone": lambda o=blind: FINDERS["both"].segment(o),
+            "range, image and edges": lambda o=observation: FINDERS["both"].segment(o),
+            "as published": lambda o=observation: FINDERS["published"].segment(o),
         }
         print(f"{name:9s} {labels.max():5d}  {'connected regions':24s} {floor:8.1f}")
         for way, work in ways.items():
@@ -158,7 +158,7 @@ def draw_steps(path: Path) -> None:
         ),
         (
             "6  rocks, at the image's edges",
-            outlined(observation, segment(observation, variant="robust")),
+            outlined(observation, FINDERS["both"].segment(observation)),
             {},
         ),
     ]
@@ -185,7 +185,7 @@ def draw_ways(path: Path) -> None:
             ("robust", observation),
             ("no range", blind),
         ):
-            found = segment(given, variant="paper" if way == "published" else "robust")
+            found = FINDERS["published" if way == "published" else "both"].segment(given)
             panels.append((f"{name}: {way}", outlined(observation, found), {}))
     _page(panels, path, columns=3)
 
@@ -196,11 +196,11 @@ def draw_mars(path: Path) -> None:
     points = read_range(MARS / "i944014r_xyz.npz", shape=image.shape, camera=None)
     observation = Observation(image=image, points_m=points)
     panels: list[tuple[str, np.ndarray, dict[str, object]]] = [
-        ("as published", outlined(observation, segment(observation, variant="paper")), {}),
-        ("robust", outlined(observation, segment(observation, variant="robust")), {}),
+        ("as published", outlined(observation, FINDERS["published"].segment(observation)), {}),
+        ("robust", outlined(observation, FINDERS["both"].segment(observation)), {}),
         (
             "robust, without range",
-            outlined(observation, segment(Observation(image=image), variant="robust")),
+            outlined(observation, FINDERS["both"].segment(Observation(image=image))),
             {},
         ),
     ]

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from rockshape.io import read_camera, read_image, read_range
 from rockshape.observation import Observation
-from rockshape.segmentation import segment
+from rockshape.segmentation import FINDERS
 from synth.dataset.write import write_common, write_scene
 from synth.render import choose_backend
 from validation.kinds.segmentation.scores import f1
@@ -65,7 +65,7 @@ def picture(series: str, name: str, scene: int, view: int) -> NDArray[np.uint8]:
         points = read_range(data / depth / file, shape=image.shape, camera=camera)
         labels = read_instances(data / "labels" / file)
     given = Observation(image=image, points_m=None if source == "none" else points, camera=camera)
-    return draw(image, labels, segment(given, variant="robust").labels)
+    return draw(image, labels, FINDERS["both"].segment(given).labels)
 
 
 def main() -> None:

@@ -1,54 +1,90 @@
-"""For people with arrays: one call from pixels and range to the measures of each rock."""
+"""Measurement of arrays: from pixels and range to the measures of each rock in one call."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rockshape.camera.camera import Camera
+from rockshape.camera.camera import Camera, PinholeLike, as_camera
 from rockshape.errors import InputError
 from rockshape.io.pixels import to_grey
 from rockshape.measurement import Measurement
 from rockshape.method import Method
 from rockshape.observation import Observation
 from rockshape.pipeline import measure as measure_observation
+from rockshape.rock.instances import Instances
 
 
 def measure(
-    image: ArrayLike | None = None,
+    image: ArrayLike | Observation | None = None,
     *,
     range_m: ArrayLike | None = None,
-    camera: Camera | None = None,
-    labels: ArrayLike | None = None,
+    camera: PinholeLike | None = None,
+    labels: ArrayLike | Instances | None = None,
     method: str | Method = "paper",
+    find: str | None = None,
     descriptors: bool = False,
 ) -> Measurement:
-    """Measure the rocks in one image.
+    """Find the rocks in one image and measure each.
 
-    - image: (rows, cols) or (rows, cols, 3), of 8 or 16 bits or floats from 0 to 1. The measures
-      take nothing from it, so it may be left out; `robust` finds rocks in it, and outlines at its
-      edges, and pictures of the measurement need it.
+    - image: (rows, cols) or (rows, cols, 3), of 8 or 16 bits or floats from 0 to 1; or an
+      Observation, as `rockshape.read` returns, which brings its own range and camera. It may be
+      left out where range or labels are given.
     - range_m: points (rows, cols, 3) in the camera frame, or z-depth (rows, cols) with a camera;
       metres, NaN, infinity or, in z-depth, 0 where nothing was measured.
-    - camera: what took the image. Needed for z-depth; else found from the points.
-    - labels: (rows, cols) of whole numbers, 0 the ground: rocks outlined already. Without labels
-      rocks are found by range, by `robust` in the image too.
-    - method: how rocks are found and measured, a name in `rockshape.method.methods()` or a Method.
-    - descriptors: whether each rock gets the everyday numbers of its outline too.
+    - camera: what took the image, any object with fx, fy, cx, cy in pixels. Needed for z-depth;
+      else found from the points.
+    - labels: rocks outlined already: (rows, cols) of whole numbers, 0 the ground, or Instances.
+    - method: what is measured: `robust`, `paper`, another name in `rockshape.method.methods()`, or
+      a Method.
+    - find: how rocks are found: `range`, `image`, `both` or `published`; else as the method does.
+    - descriptors: whether each rock gets the descriptors of its outline too.
 
-    The result is a frozen record; `.rocks` holds a record for each rock, `.to_frame()` the table.
-    Nothing given is changed. Raises InputError where the arrays do not fit each other, or there is
-    nothing to find rocks by: `paper` needs range or labels, `robust` does with an image.
+    Nothing that is given is changed. Without range, measures that need it are NaN with a reason.
+    Raises: InputError where arrays do not fit each other, and where rocks are to be found by range
+        and there is none.
     """
-    numbers = None if labels is None else _whole(np.asarray(labels))
-    points_m = None if range_m is None else _points(np.asarray(range_m), camera)
-    if numbers is None and points_m is None and image is None:
-        raise InputError("measure: expected image, range_m or labels, found none of them")
-    if image is not None:
-        grey = to_grey(np.asarray(image))
+    if isinstance(image, Observation):
+        if range_m is not None or camera is not None:
+            raise InputError("measure: expected an Observation's own range_m and camera, not both")
+        observation = image
     else:
-        grid = next(grid for grid in (points_m, numbers) if grid is not None)
-        grey = np.zeros(grid.shape[:2], dtype=np.float32)
-    observation = Observation(image=grey, points_m=points_m, camera=camera)
-    return measure_observation(observation, method=method, labels=numbers, descriptors=descriptors)
+        observation = observe(image, range_m=range_m, camera=camera, labels=labels)
+    given = None if labels is None else _instances(labels)
+    return measure_observation(
+        observation, method=method, find=find, labels=given, descriptors=descriptors
+    )
+
+
+def observe(
+    image: ArrayLike | None,
+    *,
+    range_m: ArrayLike | None = None,
+    camera: PinholeLike | None = None,
+    labels: ArrayLike | Instances | None = None,
+) -> Observation:
+    """Observation of arrays as `measure` takes them; without an image a black one stands for it.
+
+    Raises: InputError where the arrays do not fit each other, or there are none.
+    """
+    pixels = None if image is None else np.asarray(image)
+    instances = None if labels is None else _instances(labels)
+    points = None if range_m is None else np.asarray(range_m)
+    shapes = [array.shape[:2] for array in (pixels, points, instances) if array is not None]
+    if not shapes:
+        raise InputError("measure: expected image, range_m or labels, found none of them")
+    known = None if camera is None else as_camera(camera, shape=shapes[0])
+    return Observation(
+        image=np.zeros(shapes[0], dtype=np.float32) if pixels is None else to_grey(pixels),
+        points_m=None if points is None else _points(points, known),
+        camera=known,
+        colour=pixels if pixels is not None and pixels.ndim == 3 else None,
+        instances=instances,
+    )
+
+
+def _instances(labels: ArrayLike | Instances) -> Instances:
+    if isinstance(labels, Instances):
+        return labels
+    return Instances.from_labels(_whole(np.asarray(labels)))
 
 
 def _points(range_m: NDArray[np.generic], camera: Camera | None) -> NDArray[np.float64]:

@@ -2,6 +2,7 @@
 
 import dataclasses
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,7 +12,9 @@ from rockshape.ellipse.direct import Ellipse
 from rockshape.ellipsoid import Ellipsoid
 from rockshape.measures import Measure, Reading
 from rockshape.method import Method, find_method
+from rockshape.observation import Observation
 from rockshape.outline.descriptors import Descriptors
+from rockshape.rock.instances import Instances
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -56,9 +59,6 @@ class Rock:
     readings: dict[str, Reading]  # by the measures' columns
     descriptors: Descriptors | None = None  # if they were asked for
 
-    def __post_init__(self) -> None:
-        _freeze(self, "outline_px")
-
     @property
     def values(self) -> dict[str, float]:
         """The value of each measure by its column, NaN where it has none."""
@@ -77,25 +77,23 @@ class Measurement:
 
     method: str  # its name
     measures: tuple[Measure, ...]  # in the order of the table
-    labels: NDArray[np.int32]  # (rows, cols), 0 the ground
+    observation: Observation  # with the camera located
+    instances: Instances
     ground: "Ground | None"
     rocks: tuple[Rock, ...]  # in the order of their numbers
     found: "tuple[FoundRock, ...]" = ()  # how each was found, likewise; empty with given labels
     described: bool = False  # whether the rocks have descriptors
 
-    def __post_init__(self) -> None:
-        _freeze(self, "labels")
+    @cached_property
+    def labels(self) -> NDArray[np.int32]:
+        """Label image (rows, cols) with each rock's number, 0 the ground; read-only."""
+        labels = self.instances.to_labels()
+        labels.setflags(write=False)
+        return labels
 
     def to_frame(self) -> "pd.DataFrame":
         """The table, one row a rock; see `to_frame`."""
         return to_frame(self)
-
-
-def _freeze(record: Rock | Measurement, name: str) -> None:
-    """Have a record hold an array that cannot be written to; the one it was made of still can."""
-    view = getattr(record, name).view()
-    view.setflags(write=False)
-    object.__setattr__(record, name, view)
 
 
 def columns(

@@ -19,11 +19,12 @@ from rockshape.ellipsoid import Ellipsoid
 from rockshape.errors import InputError, unknown_name
 from rockshape.measures import Measure
 from rockshape.rock.view import RockView
+from rockshape.segmentation.finders import FINDERS
 
 if TYPE_CHECKING:
     from rockshape.ground import Ground
     from rockshape.observation import Observation
-    from rockshape.segmentation import Segmentation
+    from rockshape.segmentation.result import Segmentation
 
 METHODS_GROUP = "rockshape.methods"
 MEASURES_GROUP = "rockshape.measures"
@@ -44,37 +45,22 @@ class Method:
     """A way to find rocks, fit them and measure them."""
 
     name: str
-    segment: "Callable[[Observation], Segmentation]"  # its own finder
+    segment: "Callable[[Observation], Segmentation]"  # its own finder, which `find` overrides
     ground: "Callable[[Observation], Ground | None]"  # the ground under rocks that are given
     fits: Callable[[RockView], Fits]
     measures: tuple[Measure, ...]  # in the order of the table
 
 
-# segmentation takes half a second to import, and outlines without range need none of it
-
-
-def _segment_published(observation: "Observation") -> "Segmentation":
-    from rockshape.segmentation import segment  # noqa: PLC0415
-
-    return segment(observation, variant="paper")
-
-
-def _segment_robust(observation: "Observation") -> "Segmentation":
-    from rockshape.segmentation import segment  # noqa: PLC0415
-
-    return segment(observation, variant="robust")
-
-
 def _published_ground(observation: "Observation") -> "Ground | None":
-    from rockshape.segmentation import ground_under  # noqa: PLC0415
+    from rockshape.segmentation.published import ground_as_published  # noqa: PLC0415 - half a second
 
-    return ground_under(observation, variant="paper")
+    return ground_as_published(observation)
 
 
 def _robust_ground(observation: "Observation") -> "Ground | None":
-    from rockshape.segmentation import ground_under  # noqa: PLC0415
+    from rockshape.segmentation.robust import ground_among_rocks  # noqa: PLC0415 - half a second
 
-    return ground_under(observation, variant="robust")
+    return ground_among_rocks(observation)
 
 
 def _published_fits(view: RockView) -> Fits:
@@ -85,8 +71,20 @@ def _robust_fits(view: RockView) -> Fits:
     return Fits(view.form_ellipse, view.held_ellipsoid)
 
 
-PAPER = Method("paper", _segment_published, _published_ground, _published_fits, measures.PAPER)
-ROBUST = Method("robust", _segment_robust, _robust_ground, _robust_fits, measures.ROBUST)
+PAPER = Method(
+    name="paper",
+    segment=FINDERS["published"].segment,
+    ground=_published_ground,
+    fits=_published_fits,
+    measures=measures.PAPER,
+)
+ROBUST = Method(
+    name="robust",
+    segment=FINDERS["both"].segment,
+    ground=_robust_ground,
+    fits=_robust_fits,
+    measures=measures.ROBUST,
+)
 BUILT_IN = (PAPER.name, ROBUST.name)
 
 

@@ -1,6 +1,6 @@
-"""What the camera gave: a grey image and, where it was measured, the point seen at each pixel."""
+"""Observation: an image and, where it was measured, the point seen at each pixel."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from rockshape.camera.camera import Camera
 from rockshape.errors import InputError
+from rockshape.rock.instances import Instances
 
 if TYPE_CHECKING:
     from rockshape.camera.resection import Resection
@@ -18,40 +19,59 @@ WORST_RESIDUAL_PX = 3.0  # a grid that no camera explains better than this is no
 
 @dataclass(frozen=True, eq=False)
 class Observation:
-    """One image, and its range in the camera frame.
+    """One image, its range, and what is known of its camera and its rocks.
 
-    points_m is (rows, cols, 3), NaN where nothing was measured, or None without range. With a
-    camera the points are taken to be in its frame. Without one, points that a camera at their
-    origin explains are left as they are; else the camera is resected from the grid, and `points_m`
-    is moved to the camera found. `resection` tells it and its residual.
-    Raises InputError where the shapes do not fit each other.
+    points_m is NaN where nothing was measured. With a camera the points are in its frame; without
+    one `locate_camera` finds it. `resection` then tells the camera's pose and residual.
+    Raises: InputError where the shapes do not fit each other.
     """
 
-    image: NDArray[np.float32]  # (rows, cols), 0..1
+    image: NDArray[np.float32]  # (rows, cols), grey from 0 to 1
     points_m: NDArray[np.float64] | None = None  # (rows, cols, 3)
     camera: Camera | None = None
     resection: "Resection | None" = None
+    colour: NDArray[np.generic] | None = None  # (rows, cols, channels), as given; None: grey alone
+    instances: Instances | None = None  # rocks outlined already; None: they are to be found
 
     def __post_init__(self) -> None:
+        shape = self.image.shape
         if self.image.ndim != 2 or self.image.size == 0:
-            raise InputError(f"image: expected (rows, cols), found {self.image.shape}")
-        if self.camera is not None and self.camera.shape != self.image.shape:
+            raise InputError(f"image: expected (rows, cols), found {shape}")
+        if self.camera is not None and self.camera.shape != shape:
             raise InputError(
-                f"camera: expected {self.image.shape} as the image has, found {self.camera.shape}"
+                f"camera: expected {shape} as the image has, found {self.camera.shape}"
             )
-        if self.points_m is None:
-            return
-        expected = (*self.image.shape, 3)
-        if self.points_m.shape != expected:
-            raise InputError(f"points_m: expected {expected}, found {self.points_m.shape}")
-        if self.camera is None:
-            # brings scipy.optimize, a fifth of a second
-            from rockshape.camera.resection import calibrate, resect  # noqa: PLC0415
+        if self.points_m is not None and self.points_m.shape != (*shape, 3):
+            raise InputError(f"points_m: expected {(*shape, 3)}, found {self.points_m.shape}")
+        if self.colour is not None and self.colour.shape[:2] != shape:
+            raise InputError(f"colour: expected {shape} pixels, found {self.colour.shape}")
+        if self.instances is not None and self.instances.shape != shape:
+            raise InputError(
+                f"labels: expected {shape} as the image has, found {self.instances.shape}"
+            )
 
-            resection = calibrate(self.points_m)
-            if resection is None or resection.residual_px > SURE_RESIDUAL_PX:
-                resection = resect(self.points_m)
-            if resection is not None and resection.residual_px <= WORST_RESIDUAL_PX:
-                object.__setattr__(self, "resection", resection)
-                object.__setattr__(self, "camera", resection.camera)
-                object.__setattr__(self, "points_m", resection.to_camera(self.points_m))
+
+def locate_camera(observation: Observation) -> Observation:
+    """Observation with its camera, found by resection where range is given without one.
+
+    Points that a camera at their origin explains to 0.5 px are left as they are; else the camera is
+    resected from the grid and the points are moved to its frame, if it explains them to 3 px.
+    Otherwise, and with a camera or without range, the observation is returned as it is.
+    """
+    points_m = observation.points_m
+    if points_m is None or observation.camera is not None:
+        return observation
+    # brings scipy.optimize, a fifth of a second
+    from rockshape.camera.resection import calibrate, resect  # noqa: PLC0415
+
+    resection = calibrate(points_m)
+    if resection is None or resection.residual_px > SURE_RESIDUAL_PX:
+        resection = resect(points_m)
+    if resection is None or resection.residual_px > WORST_RESIDUAL_PX:
+        return observation
+    return replace(
+        observation,
+        resection=resection,
+        camera=resection.camera,
+        points_m=resection.to_camera(points_m),
+    )

@@ -1,4 +1,4 @@
-"""From an observation to the measures of each rock in it."""
+"""Measuring pipeline: from an observation to the readings of each rock in it."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -6,17 +6,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.camera.camera import Camera
 from rockshape.errors import InputError
 from rockshape.ground.pixel_noise import RangeNoise, estimate_range_noise
 from rockshape.measurement import Measurement, Rock
-from rockshape.method import Method, find_method
-from rockshape.observation import Observation
+from rockshape.measures import Reading
+from rockshape.method import Fits, Method, find_method
+from rockshape.observation import Observation, locate_camera
 from rockshape.outline.descriptors import describe_smooth
 from rockshape.rock.blas_threads import one_blas_thread
-from rockshape.rock.patches import Patch, find_patches
+from rockshape.rock.instances import Instance, Instances, Window
 from rockshape.rock.view import RockView
 from rockshape.rock.visibility import visible_fraction
+from rockshape.segmentation.finders import find_finder
 
 if TYPE_CHECKING:
     from rockshape.ground import Ground
@@ -27,37 +28,38 @@ def measure(
     observation: Observation,
     *,
     method: str | Method = "paper",
-    labels: NDArray[np.int32] | None = None,
+    find: str | None = None,
+    labels: NDArray[np.int32] | Instances | None = None,
     descriptors: bool = False,
 ) -> Measurement:
     """Find the rocks in an observation and measure each.
 
-    With labels, (rows, cols) of whole numbers with 0 the ground, nothing is segmented; of a number
-    in several pieces the largest is measured. With descriptors, each rock gets the everyday
-    numbers of its outline too.
-    Raises: InputError for an unknown method, labels of another shape, and without labels where the
-    method finds rocks by range and there is none.
+    - method: what is measured, and how rocks are found unless `find` says so.
+    - find: a name in `rockshape.segmentation.FINDERS`.
+    - labels: rocks outlined already, in place of the observation's own: a label image (rows, cols)
+      with 0 the ground, or Instances. Nothing is then found. Of a rock in several pieces the
+      largest is measured.
+    - descriptors: whether each rock gets the descriptors of its outline too.
+
+    The camera is located first where range is given without one.
+    Raises: InputError for an unknown method or finder, labels of another shape, a finder given
+        beside labels, and range that the finder needs and has not.
     """
     method = find_method(method)
-    shape = observation.image.shape
-    if labels is not None and labels.shape != shape:
-        raise InputError(f"labels: expected {shape} as the image has, found {labels.shape}")
-    if labels is None or observation.points_m is not None:
-        scene, found = _find(observation, method, labels)
-    else:
-        scene, found = _Scene(labels=labels, frame=_whole(shape), camera=observation.camera), ()
+    given = _given(observation, labels)
+    if given is not None and find is not None:
+        raise InputError("find: expected no finder where rocks are given by labels")
+    scene = _scene(locate_camera(observation), method, find, given)
     with one_blas_thread():
-        rocks = tuple(
-            _measure_rock(scene, patch, method=method, described=descriptors)
-            for patch in find_patches(scene.labels)
-        )
+        rocks = _measure_rocks(scene, method, described=descriptors)
     return Measurement(
         method=method.name,
         measures=method.measures,
-        labels=scene.labels,
+        observation=scene.observation,
+        instances=scene.instances,
         ground=scene.ground,
         rocks=rocks,
-        found=found,
+        found=scene.found,
         described=descriptors,
     )
 
@@ -66,60 +68,101 @@ def measure(
 class _Scene:
     """What the rocks of one image share."""
 
-    labels: NDArray[np.int32]  # (rows, cols)
-    frame: tuple[slice, slice]  # rows and columns in which rocks could be found
-    camera: Camera | None
-    points_m: NDArray[np.float64] | None = None  # (rows, cols, 3)
+    observation: Observation
+    instances: Instances
+    frame: Window  # rows and columns in which rocks could be found
     ground: "Ground | None" = None
     noise: RangeNoise | None = None
+    found: "tuple[FoundRock, ...]" = ()
 
 
-def _whole(shape: tuple[int, ...]) -> tuple[slice, slice]:
-    return slice(0, shape[0]), slice(0, shape[1])
+def _given(
+    observation: Observation, labels: NDArray[np.int32] | Instances | None
+) -> Instances | None:
+    if labels is None:
+        return observation.instances
+    if labels.shape != observation.image.shape:
+        raise InputError(
+            f"labels: expected {observation.image.shape} as the image has, found {labels.shape}"
+        )
+    return labels if isinstance(labels, Instances) else Instances.from_labels(labels)
 
 
-def _find(
-    observation: Observation, method: Method, labels: NDArray[np.int32] | None
-) -> "tuple[_Scene, tuple[FoundRock, ...]]":
-    """Where the rocks are and what they stand on; with labels, the latter alone."""
-    points_m, noise = observation.points_m, None
+def _scene(
+    observation: Observation, method: Method, find: str | None, given: Instances | None
+) -> _Scene:
+    """Where the rocks are and what they stand on; of rocks that are given, the latter alone."""
     found: tuple[FoundRock, ...] = ()
     with one_blas_thread():
-        if labels is None:
-            segmentation = method.segment(observation)
-            labels, ground, frame = segmentation.labels, segmentation.ground, segmentation.frame
-            found = segmentation.found
+        if given is not None:
+            rows, cols = given.shape
+            frame = slice(0, rows), slice(0, cols)
+            instances, ground = given, method.ground(observation)
         else:
-            ground, frame = method.ground(observation), _whole(labels.shape)
-        if ground is not None and points_m is not None:
-            noise = estimate_range_noise(points_m, ground.plane, labels != 0)
-    scene = _Scene(
-        labels=labels,
-        frame=frame,
-        camera=observation.camera,
-        points_m=points_m,
-        ground=ground,
-        noise=noise,
-    )
-    return scene, found
+            segment = method.segment if find is None else find_finder(find).segment
+            segmented = segment(observation)
+            instances, ground = segmented.instances, segmented.ground
+            frame, found = segmented.frame, segmented.found
+        noise = None
+        if ground is not None and observation.points_m is not None:
+            noise = estimate_range_noise(observation.points_m, ground.plane, instances.covered())
+    return _Scene(observation, instances, frame, ground, noise, found)
 
 
-def _measure_rock(scene: _Scene, patch: Patch, *, method: Method, described: bool) -> Rock:
-    rows, cols = patch.window
-    view = _view_rock(scene, patch)
-    fits = method.fits(view)
-    readings = {measure.column: measure.read(view) for measure in method.measures}
-    pixel_rows, pixel_cols = np.nonzero(patch.mask)
+def _measure_rocks(scene: _Scene, method: Method, *, described: bool) -> tuple[Rock, ...]:
+    """Measure every rock; measures that take a batch see all of them first."""
+    parts = scene.instances.largest_parts()
+    whole = {item.id: item for item in scene.instances}
+    batched = [one for one in method.measures if one.evaluate_batch is not None]
+    views = [_view_rock(scene, part) for part in parts] if batched else []
+    answers = {one.column: one.read_all(views) for one in batched}
+    rocks = []
+    for index, part in enumerate(parts):
+        view = views[index] if views else _view_rock(scene, part)
+        readings = {
+            one.column: answers[one.column][index] if one.column in answers else one.read(view)
+            for one in method.measures
+        }
+        rocks.append(
+            _rock(
+                scene,
+                whole[part.id],
+                part,
+                view=view,
+                fits=method.fits(view),
+                readings=readings,
+                described=described,
+            )
+        )
+    return tuple(rocks)
+
+
+def _rock(
+    scene: _Scene,
+    whole: Instance,
+    part: Instance,
+    *,
+    view: RockView,
+    fits: Fits,
+    readings: dict[str, Reading],
+    described: bool,
+) -> Rock:
+    rows, cols = part.window
+    outline_px = view.outline_px.view()
+    outline_px.setflags(write=False)
+    pixel_rows, pixel_cols = np.nonzero(part.mask)
     return Rock(
-        number=patch.number,
+        number=part.id,
         row=rows.start + float(pixel_rows.mean()),
         col=cols.start + float(pixel_cols.mean()),
         area_px=len(pixel_rows),
         width_px=cols.stop - cols.start,
         height_px=rows.stop - rows.start,
         truncated=view.truncated,
-        visible_fraction=visible_fraction(patch.number, fits.ellipse, scene.labels, scene.points_m),
-        outline_px=view.outline_px,
+        visible_fraction=visible_fraction(
+            whole, fits.ellipse, scene.instances, scene.observation.points_m
+        ),
+        outline_px=outline_px,
         ellipse=fits.ellipse,
         ellipsoid=fits.ellipsoid,
         readings=readings,
@@ -127,13 +170,14 @@ def _measure_rock(scene: _Scene, patch: Patch, *, method: Method, described: boo
     )
 
 
-def _view_rock(scene: _Scene, patch: Patch) -> RockView:
-    rows, cols = patch.window
+def _view_rock(scene: _Scene, part: Instance) -> RockView:
+    rows, cols = part.window
+    points_m = scene.observation.points_m
     return RockView(
-        mask=patch.mask,
+        mask=part.mask,
         corner=(rows.start, cols.start),
-        grid_m=None if scene.points_m is None else scene.points_m[patch.window],
-        camera=scene.camera,
+        grid_m=None if points_m is None else points_m[part.window],
+        camera=scene.observation.camera,
         ground=scene.ground,
         frame=scene.frame,
         noise=scene.noise,

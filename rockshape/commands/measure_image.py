@@ -16,7 +16,6 @@ from rockshape.method import find_method
 from rockshape.observation import Observation
 from rockshape.pipeline import measure
 from rockshape.report.overlay import overlay
-from rockshape.rock.instances import Instances
 
 PAGES = (".html", ".htm")
 
@@ -57,14 +56,13 @@ def measure_image(options: MeasureOptions) -> None:
     measurement = measure(
         observation,
         method=method,
-        labels=None if labels is None else labels.to_labels(),
+        labels=labels,
         descriptors=options.descriptors,
     )
     if options.labels_out is not None and encoded is None:
-        found = Instances.from_labels(measurement.labels)
-        encoded = LABELS.encode(options.labels_out, found)
+        encoded = LABELS.encode(options.labels_out, measurement.instances)
     _write(options, observation, measurement, encoded)
-    print(summarise(observation, measurement), file=sys.stderr)
+    print(summarise(measurement), file=sys.stderr)
 
 
 def _check_outputs(options: MeasureOptions) -> None:

@@ -5,13 +5,13 @@ from collections.abc import Sequence
 
 from rockshape.measurement import Measurement, Rock
 from rockshape.measures import Measure, Reason
-from rockshape.observation import Observation
 
 NO_RANGE = "no range: 3-D measures are empty; give --range FILE (and --camera FILE for z-depth)"
 
 
-def summarise(observation: Observation, measurement: Measurement) -> str:
+def summarise(measurement: Measurement) -> str:
     """Line on the rocks, the measures of each that are missing, the ground and the camera."""
+    observation = measurement.observation
     parts = [_counted(len(measurement.rocks), "rock")]
     flat = [each for each in measurement.measures if not each.needs_range]
     solid = [each for each in measurement.measures if each.needs_range]

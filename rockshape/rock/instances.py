@@ -1,11 +1,15 @@
 """Rock instances of one image: a mask and an id for each, which may overlap."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Self
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
+
+from rockshape.errors import InputError
 
 Window = tuple[slice, slice]
 
@@ -22,10 +26,28 @@ class Instance:
 
 @dataclass(frozen=True, eq=False)
 class Instances:
-    """The rocks of an image of a shape (rows, cols), in the order of their ids; may overlap."""
+    """The rocks of an image of a shape (rows, cols), which may overlap.
+
+    Raises: InputError for ids that repeat and masks that do not fit their window of the image.
+    """
 
     shape: tuple[int, int]
     items: tuple[Instance, ...] = ()
+
+    def __post_init__(self) -> None:
+        if len({item.id for item in self.items}) < len(self.items):
+            raise InputError("instances: expected each id once, found one repeated")
+        for item in self.items:
+            expected = tuple(
+                side.stop - side.start
+                for side, size in zip(item.window, self.shape, strict=True)
+                if 0 <= side.start < side.stop <= size
+            )
+            if item.mask.shape != expected:
+                raise InputError(
+                    f"instances: rock {item.id}: expected a mask that fills its window of the "
+                    f"image {self.shape}, found {item.mask.shape} for {item.window}"
+                )
 
     def __len__(self) -> int:
         return len(self.items)
@@ -51,6 +73,57 @@ class Instances:
         for item in self.items:
             labels[item.window][item.mask] = item.id
         return labels
+
+    def meeting(self, window: Window) -> tuple[Instance, ...]:
+        """Rocks whose window has a pixel in common with a window of the image."""
+        rows, cols = window
+        top, bottom, left, right = self._sides
+        met = (top < rows.stop) & (bottom > rows.start) & (left < cols.stop) & (right > cols.start)
+        return tuple(self.items[index] for index in np.flatnonzero(met))
+
+    @cached_property
+    def _sides(self) -> NDArray[np.intp]:
+        """First and past-the-last row, then column, of every window, (4, n)."""
+        sides = [
+            (rows.start, rows.stop, cols.start, cols.stop)
+            for rows, cols in (item.window for item in self.items)
+        ]
+        return np.array(sides, dtype=np.intp).reshape(-1, 4).T
+
+    def covered(self) -> NDArray[np.bool_]:
+        """Pixels (rows, cols) of any rock."""
+        covered = np.zeros(self.shape, dtype=bool)
+        for item in self.items:
+            covered[item.window] |= item.mask
+        return covered
+
+    def largest_parts(self) -> Self:
+        """The same rocks, each with the largest part of its mask alone (8-connected), in its box.
+
+        Rocks without a pixel are left out.
+        """
+        return type(self)(
+            self.shape, tuple(_largest_part(item) for item in self.items if item.mask.any())
+        )
+
+
+def _largest_part(instance: Instance) -> Instance:
+    count, parts, stats, _ = cv2.connectedComponentsWithStats(
+        np.ascontiguousarray(instance.mask).view(np.uint8), connectivity=8
+    )
+    largest = 1 + int(np.argmax(stats[1:, cv2.CC_STAT_AREA]))
+    left, top, width, height = stats[largest, : cv2.CC_STAT_AREA].tolist()
+    if count == 2 and (height, width) == instance.mask.shape:
+        return instance
+    rows, cols = instance.window
+    return replace(
+        instance,
+        window=(
+            slice(rows.start + top, rows.start + top + height),
+            slice(cols.start + left, cols.start + left + width),
+        ),
+        mask=parts[top : top + height, left : left + width] == largest,
+    )
 
 
 def _windows(labels: NDArray[np.integer]) -> list[tuple[int, Window]]:

@@ -1,9 +1,10 @@
-"""How much of a rock the image shows."""
+"""Visible fraction of a rock, and whether the frame cuts it."""
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.ellipse.direct import Ellipse
+from rockshape.rock.instances import Instance, Instances, Window
 
 MARGIN_PX = 8  # stereo matching leaves a margin of up to half its window without range
 
@@ -33,22 +34,23 @@ def touches_border(window: tuple[slice, slice], frame: tuple[slice, slice]) -> b
 
 
 def visible_fraction(
-    number: int,
+    rock: Instance,
     ellipse: Ellipse | None,
-    labels: NDArray[np.int32],
+    instances: Instances,
     points_m: NDArray[np.float64] | None,
 ) -> float:
     """Share of a rock's fitted ellipse within the frame and not covered by a nearer rock, 0..1.
 
-    Which of two rocks is the nearer is told by the median distance of their points, so that without
-    range only the frame counts. NaN where there is no ellipse.
+    instances are all rocks of the image, points_m (rows, cols, 3) its range. Which of two rocks is
+    the nearer is told by the median distance of their points, so that without range only the frame
+    counts. NaN where there is no ellipse.
     """
     if ellipse is None:
         return float("nan")
     cosine, sine = np.cos(ellipse.angle_rad), np.sin(ellipse.angle_rad)
     half_width = np.hypot(ellipse.major * cosine, ellipse.minor * sine)
     half_height = np.hypot(ellipse.major * sine, ellipse.minor * cosine)
-    rows, cols = labels.shape
+    rows, cols = instances.shape
     top, bottom = _reach(ellipse.y, half_height, rows)
     left, right = _reach(ellipse.x, half_width, cols)
     y, x = np.mgrid[top:bottom, left:right]
@@ -59,7 +61,7 @@ def visible_fraction(
     whole = np.pi * ellipse.major * ellipse.minor
     if points_m is not None:
         window = np.s_[top:bottom, left:right]
-        inside &= ~_nearer(number, labels[window], points_m[window], inside)
+        inside &= ~_nearer(rock, instances, points_m[window], inside, window)
     return float(min(1.0, inside.sum() / whole))
 
 
@@ -69,20 +71,41 @@ def _reach(centre: float, half: float, size: int) -> tuple[int, int]:
 
 
 def _nearer(
-    number: int,
-    labels: NDArray[np.int32],
+    rock: Instance,
+    instances: Instances,
     points_m: NDArray[np.float64],
     inside: NDArray[np.bool_],
+    window: Window,
 ) -> NDArray[np.bool_]:
     """Pixels of the window that belong to a rock nearer to the camera than this one."""
     distance = np.linalg.norm(points_m, axis=-1)
     known = np.isfinite(distance)
-    nearer = np.zeros(labels.shape, dtype=bool)
-    if not (known & (labels == number)).any():
+    nearer = np.zeros(inside.shape, dtype=bool)
+    own = _within(rock, window)
+    if not (known & own).any():
         return nearer
-    own = np.median(distance[known & (labels == number)])
-    for other in np.unique(labels[inside & known & (labels != 0) & (labels != number)]):
-        theirs = labels == other
-        if np.median(distance[known & theirs]) < own:
-            nearer |= theirs
+    own_m = np.median(distance[known & own])
+    for other in instances.meeting(window):
+        theirs = _within(other, window)
+        if other.id == rock.id or not (theirs & inside & known).any():
+            continue
+        if np.median(distance[known & theirs]) < own_m:
+            nearer |= theirs & ~own
     return nearer
+
+
+def _within(rock: Instance, window: Window) -> NDArray[np.bool_]:
+    """A rock's mask on a window of the image."""
+    (top, bottom), (left, right) = (
+        (max(one.start, two.start), min(one.stop, two.stop))
+        for one, two in zip(rock.window, window, strict=True)
+    )
+    mask = np.zeros(tuple(max(0, side.stop - side.start) for side in window), dtype=bool)
+    if top >= bottom or left >= right:
+        return mask
+    here, there = (
+        np.s_[top - rows.start : bottom - rows.start, left - cols.start : right - cols.start]
+        for rows, cols in (window, rock.window)
+    )
+    mask[here] = rock.mask[there]
+    return mask

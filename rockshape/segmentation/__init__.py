@@ -1,15 +1,8 @@
-"""Where the rocks are: the published way, by heights alone, and a robust one by range and image."""
+"""Segmentation of rocks: as published, by range, by the image, or by both; see `finders`.
 
-from rockshape.segmentation.edges.edge_snapping import SnappedOutline
-from rockshape.segmentation.result import Branch, FoundRock, Segmentation, Variant
-from rockshape.segmentation.robust import ground_under, segment
+Names are imported when first asked for: rocks that are given need none of it.
+"""
 
-__all__ = [
-    "Branch",
-    "FoundRock",
-    "Segmentation",
-    "SnappedOutline",
-    "Variant",
-    "ground_under",
-    "segment",
-]
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -16,8 +16,12 @@ from skimage.measure import label
 from skimage.morphology import reconstruction
 from skimage.segmentation import watershed
 
+from rockshape.ground import Ground, fit_plane
+from rockshape.observation import Observation
+from rockshape.rock.instances import Instances
 from rockshape.rock.visibility import measured_frame
 from rockshape.segmentation.relabel import renumber
+from rockshape.segmentation.result import FoundRock, Segmentation, lacks_range
 
 LEVELS_PER_SIGMA = 4  # of the ground's own scatter
 FINEST_LEVEL_M = 0.0025
@@ -98,6 +102,31 @@ def segment_heights(height_m: NDArray[np.float64], *, sigma_m: float) -> NDArray
     rocks = _fill_dents(np.asarray(rocks, dtype=np.int32))
     small = np.flatnonzero(np.bincount(rocks.ravel()) < MIN_PIXELS)
     return renumber(rocks, dropped=np.union1d(small, _on_border(tops, known)))
+
+
+def ground_as_published(observation: Observation) -> Ground | None:
+    """Ground plane by 3-sigma rejection; None without range or where no plane is determined."""
+    plane = None if observation.points_m is None else fit_plane(observation.points_m)
+    return None if plane is None else Ground(plane)
+
+
+def segment_published(observation: Observation) -> Segmentation:
+    """Rocks by the 3-sigma plane and the tops, sides and bottoms of the heights above it.
+
+    Raises: InputError without range.
+    Source: Fox et al. (2002), section 2, Rock Segmentation.
+    """
+    points_m = observation.points_m
+    if points_m is None:
+        raise lacks_range("published")
+    rows, cols = observation.image.shape
+    ground = ground_as_published(observation)
+    if ground is None:
+        return Segmentation(Instances((rows, cols)), None, (slice(0, rows), slice(0, cols)), ())
+    height_m = ground.height_m(points_m)
+    rocks = Instances.from_labels(segment_heights(height_m, sigma_m=ground.plane.sigma_m))
+    found = tuple(FoundRock(rock.id, "range") for rock in rocks)
+    return Segmentation(rocks, ground, measured_frame(np.isfinite(height_m)), found)
 
 
 def _find_tops(levels: NDArray[np.int32], known: NDArray[np.bool_]) -> NDArray[np.int32]:

@@ -94,7 +94,7 @@ def test_images_of_every_kind_are_drawn_alike(image: np.ndarray) -> None:
     ("arguments", "says"),
     [
         ({}, "image, range_m or labels"),
-        ({"image": np.zeros((9, 9))}, "range to find rocks by"),
+        ({"image": np.zeros((9, 9))}, "'published' expected range"),
         ({"range_m": np.ones((9, 9))}, "expected a camera"),
         ({"range_m": np.ones((9, 9, 4))}, "found (9, 9, 4)"),
         ({"range_m": np.ones(9)}, "found (9,)"),
@@ -153,3 +153,39 @@ def test_every_name_it_offers_is_there() -> None:
         assert getattr(rockshape, name) is not None
     with pytest.raises(AttributeError):
         _ = rockshape.no_such_name
+
+
+class Lens:
+    """A camera of another make."""
+
+    fx, fy, cx, cy = solids.CAMERA.fx, solids.CAMERA.fy, solids.CAMERA.cx, solids.CAMERA.cy
+
+
+def test_any_camera_with_a_focal_length_and_a_principal_point_will_do() -> None:
+    depth = ball()[..., 2]
+    expected = rockshape.measure(range_m=depth, camera=solids.CAMERA).to_frame()
+    pd.testing.assert_frame_equal(
+        rockshape.measure(range_m=depth, camera=Lens()).to_frame(), expected
+    )
+
+
+def test_a_camera_that_is_none_or_bends_rays_is_refused() -> None:
+    with pytest.raises(
+        rockshape.InputError, match="camera: expected an object with fx, fy, cx, cy"
+    ):
+        rockshape.measure(range_m=ball(), camera=(400, 400, 160, 120))
+    bent = Lens()
+    bent.distortion = (0.1, 0.0)
+    with pytest.raises(rockshape.InputError, match="camera: distortion"):
+        rockshape.measure(range_m=ball(), camera=bent)
+
+
+def test_an_observation_brings_its_own_range_and_keeps_the_colour() -> None:
+    colour = np.full((*solids.CAMERA.shape, 3), 90, dtype=np.uint8)
+    by_arrays = rockshape.measure(colour, range_m=ball(), camera=solids.CAMERA)
+    assert by_arrays.observation.colour is colour
+    assert by_arrays.observation.image.shape == solids.CAMERA.shape
+    again = rockshape.measure(by_arrays.observation)
+    pd.testing.assert_frame_equal(again.to_frame(), by_arrays.to_frame())
+    with pytest.raises(rockshape.InputError, match="an Observation's own range_m"):
+        rockshape.measure(by_arrays.observation, range_m=ball())

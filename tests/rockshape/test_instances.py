@@ -1,7 +1,9 @@
 """Instances: label images there and back, and masks that overlap."""
 
 import numpy as np
+import pytest
 
+from rockshape.errors import InputError
 from rockshape.rock.instances import Instance, Instances
 
 
@@ -33,3 +35,18 @@ def test_overlapping_rocks_keep_their_own_pixels_and_the_later_covers() -> None:
     assert (labels == 4).sum() == 8
     assert (labels == 9).sum() == 9
     assert all(item.mask.sum() == 9 for item in instances)
+
+
+@pytest.mark.parametrize(
+    ("ids", "window", "says"),
+    [
+        ((1, 1), np.s_[0:3, 0:3], "each id once"),
+        ((1, 2), np.s_[0:3, 0:4], "fills its window"),
+        ((1, 2), np.s_[4:7, 0:3], "fills its window"),
+    ],
+    ids=["twice", "wider", "beyond the image"],
+)
+def test_what_cannot_be_instances_is_refused(ids: tuple, window: tuple, says: str) -> None:
+    mask = np.ones((3, 3), dtype=bool)
+    with pytest.raises(InputError, match=says):
+        Instances((6, 6), tuple(Instance(number, window, mask) for number in ids))

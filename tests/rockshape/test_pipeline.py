@@ -15,6 +15,8 @@ from rockshape.observation import Observation
 from rockshape.outline.descriptors import Descriptors
 from rockshape.pipeline import measure
 from rockshape.report.overlay import overlay
+from rockshape.rock.instances import Instance, Instances
+from rockshape.segmentation import FINDERS
 from tests import solids
 from tests.paths import GRAINS_IMAGE, GRAINS_LABELS, MARS_IMAGE, MARS_RANGE
 
@@ -55,7 +57,7 @@ def test_given_labels_are_used_and_keep_their_numbers(yard: Observation) -> None
     labels = np.where(found == 2, 40, np.where(found == 1, 7, 0)).astype(np.int32)
     measured = measure(yard, labels=labels)
     assert to_frame(measured)["rock"].tolist() == [7, 40]
-    assert np.shares_memory(measured.labels, labels)
+    np.testing.assert_array_equal(measured.labels, labels)
 
 
 def test_range_that_is_nowhere_known_leaves_the_flat_measures(yard: Observation) -> None:
@@ -128,10 +130,66 @@ def test_no_mask_however_odd_crashes_or_gives_a_wild_number(rng: np.random.Gener
         assert rock.ellipse is None or rock.ellipse.major < 100
 
 
-def test_nothing_to_find_rocks_by_finds_none() -> None:
-    frame = to_frame(measure(Observation(image=np.zeros((9, 9), dtype=np.float32))))
+@pytest.mark.parametrize("find", ["published", "range", None])
+def test_a_finder_without_the_range_that_it_needs_says_what_to_do(find: str | None) -> None:
+    blind = Observation(image=np.zeros((9, 9), dtype=np.float32))
+    with pytest.raises(InputError, match=r"expected range .*labels.*find='image'"):
+        measure(blind, method="paper", find=find)
+    frame = to_frame(measure(blind, method="paper", find="image"))
     assert len(frame) == 0
     assert list(frame.columns) == list(columns("paper"))
+
+
+@pytest.mark.parametrize("find", FINDERS)
+def test_how_rocks_are_found_is_apart_from_what_is_measured(yard: Observation, find: str) -> None:
+    grey = np.where(yard.points_m[..., 2] < 2.7, 0.8, 0.3).astype(np.float32)
+    lit = dataclasses.replace(yard, image=grey)
+    found = measure(lit, method="paper", find=find)
+    assert found.method == "paper"
+    alone = FINDERS[find].segment(lit)
+    np.testing.assert_array_equal(found.labels, alone.labels)
+    assert {one.branch for one in found.found} <= {"image" if find == "image" else "range", "image"}
+
+
+def test_the_finder_of_a_method_is_its_default(yard: Observation) -> None:
+    for method, find in (("paper", "published"), ("robust", "both")):
+        first, second = measure(yard, method=method), measure(yard, method=method, find=find)
+        np.testing.assert_array_equal(first.labels, second.labels)
+
+
+def test_an_unknown_finder_and_one_beside_labels_are_refused(yard: Observation) -> None:
+    with pytest.raises(InputError, match=r"find: expected one of range.*did you mean 'image'"):
+        measure(yard, find="imgae")
+    with pytest.raises(InputError, match="find: expected no finder"):
+        measure(yard, find="both", labels=np.zeros(yard.image.shape, dtype=np.int32))
+
+
+def test_overlapping_rocks_are_each_measured_on_their_own_mask() -> None:
+    y, x = np.mgrid[:100, :160]
+    discs = [np.hypot(x - centre, y - 50) < 25 for centre in (60, 95)]
+    assert (discs[0] & discs[1]).any()
+    items = tuple(
+        Instance(number, np.s_[0:100, 0:160], disc)
+        for number, disc in zip((3, 8), discs, strict=True)
+    )
+    blind = Observation(image=np.zeros(x.shape, dtype=np.float32))
+    both = measure(blind, method="robust", labels=Instances(x.shape, items))
+    assert [rock.number for rock in both.rocks] == [3, 8]
+    for rock, disc in zip(both.rocks, discs, strict=True):
+        (alone,) = measure(blind, method="robust", labels=disc.astype(np.int32)).rocks
+        assert rock.values == pytest.approx(alone.values, nan_ok=True)
+        assert rock.area_px == disc.sum()
+    assert (both.labels == 8).sum() == discs[1].sum()  # the later covers the earlier
+
+
+def test_rocks_of_the_observation_are_measured_unless_others_are_given() -> None:
+    labels = np.zeros((60, 80), dtype=np.int32)
+    labels[10:30, 20:50] = 5
+    own = Observation(
+        image=np.zeros(labels.shape, dtype=np.float32), instances=Instances.from_labels(labels)
+    )
+    assert [rock.number for rock in measure(own).rocks] == [5]
+    assert [rock.number for rock in measure(own, labels=labels + labels).rocks] == [10]
 
 
 def test_how_rocks_were_found_is_told_on_request(yard: Observation) -> None:

@@ -6,7 +6,7 @@ from rockshape.camera.camera import Camera
 from rockshape.camera.resection import resect
 from rockshape.errors import InputError
 from rockshape.io import read_image, read_range
-from rockshape.observation import Observation
+from rockshape.observation import Observation, locate_camera
 from tests import solids
 from tests.paths import MARS_IMAGE, MARS_RANGE
 
@@ -33,12 +33,15 @@ def test_a_grid_in_another_frame_tells_its_camera() -> None:
     assert found.residual_px < 1e-4
 
 
-def test_an_observation_moves_such_a_grid_to_the_camera() -> None:
+def test_locating_the_camera_moves_such_a_grid_to_it() -> None:
     points = scene()
     rotation = Rotation.from_rotvec([1.8, 0.3, -0.4]).as_matrix()
     image = np.zeros(solids.CAMERA.shape, dtype=np.float32)
-    observation = Observation(image=image, points_m=points @ rotation.T + [4.0, -2.0, 1.3])
-    assert observation.points_m is not None
+    moved = points @ rotation.T + [4.0, -2.0, 1.3]
+    given = Observation(image=image, points_m=moved)
+    observation = locate_camera(given)
+    assert given.points_m is moved
+    assert given.camera is None
     assert observation.points_m == pytest.approx(points, abs=1e-5, nan_ok=True)
 
 
@@ -56,7 +59,7 @@ def test_a_grid_in_its_cameras_frame_is_left_alone() -> None:
         ),
     )
     image = np.zeros(camera.shape, dtype=np.float32)
-    observation = Observation(image=image, points_m=points)
+    observation = locate_camera(Observation(image=image, points_m=points))
     assert np.array_equal(observation.points_m, points, equal_nan=True)
     assert observation.camera is not None
     assert observation.camera.cx == pytest.approx(camera.cx)
@@ -84,7 +87,9 @@ def test_no_camera_where_none_is_determined(points: np.ndarray) -> None:
 
 def test_points_that_no_camera_sees_are_left_as_they_are(rng: np.random.Generator) -> None:
     points = rng.normal(size=(20, 30, 3))
-    observation = Observation(image=np.zeros((20, 30), dtype=np.float32), points_m=points)
+    given = Observation(image=np.zeros((20, 30), dtype=np.float32), points_m=points)
+    observation = locate_camera(given)
+    assert observation is given
     assert observation.resection is None
     assert np.array_equal(observation.points_m, points)
 

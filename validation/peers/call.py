@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.outline.edge import trace_edge
-from rockshape.rock.patches import Patch, find_patches
+from rockshape.rock.instances import Instance, Instances
 from validation.errors import InputError
 from validation.peers.view_input import Seen
 
@@ -143,18 +143,18 @@ def _number(value: object, *, where: str) -> float:
 
 def _masks(labels: NDArray[np.int32]) -> Iterator[tuple[int, NDArray[np.bool_]]]:
     """Each rock's number and mask (rows, cols): its largest connected part with a margin."""
-    for patch in find_patches(labels):
-        yield patch.number, np.pad(patch.mask, MARGIN_PX)
+    for rock in Instances.from_labels(labels).largest_parts():
+        yield rock.id, np.pad(rock.mask, MARGIN_PX)
 
 
 def _outlines(labels: NDArray[np.int32]) -> Iterator[tuple[int, NDArray[np.float64]]]:
     """Each rock's number and outline (n, 2), x and y in the image's pixels; see `trace_edge`."""
-    for patch in find_patches(labels):
-        yield patch.number, trace_edge(patch.mask) + _corner_px(patch)
+    for rock in Instances.from_labels(labels).largest_parts():
+        yield rock.id, trace_edge(rock.mask) + _corner_px(rock)
 
 
-def _corner_px(patch: Patch) -> tuple[int, int]:
-    rows, cols = patch.window
+def _corner_px(rock: Instance) -> tuple[int, int]:
+    rows, cols = rock.window
     return cols.start, rows.start
 
 

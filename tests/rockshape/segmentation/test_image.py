@@ -4,13 +4,13 @@ import cv2
 import numpy as np
 
 from rockshape.observation import Observation
-from rockshape.segmentation import segment
 from rockshape.segmentation.by_image.ground_appearance import read_lightness
 from rockshape.segmentation.by_image.proposal_score import features_of, likelihood
 from rockshape.segmentation.by_image.proposal_seeds import find_seeds
 from rockshape.segmentation.by_image.star_proposals import Stars, propose
 from rockshape.segmentation.edges.edge_snapping import paint, snap
 from rockshape.segmentation.polygon_fill import inside_of
+from rockshape.segmentation.robust import segment_both
 from tests import solids
 
 
@@ -43,7 +43,7 @@ def test_ground_in_shadow_is_told_from_rock(rng: np.random.Generator) -> None:
 
 def test_a_rock_is_found_without_its_shadow(rng: np.random.Generator) -> None:
     image, rock, shadow = rock_with_shadow(rng)
-    found = segment(Observation(image=image), variant="robust")
+    found = segment_both(Observation(image=image))
     assert found.ground is None
     number = found.labels[120, 150]
     assert number > 0
@@ -55,9 +55,9 @@ def test_a_rock_is_found_without_its_shadow(rng: np.random.Generator) -> None:
 
 def test_bare_ground_and_an_even_image_show_no_rocks(rng: np.random.Generator) -> None:
     bare = textured((240, 320), rng).astype(np.float32)
-    assert segment(Observation(image=bare), variant="robust").labels.max() == 0
+    assert segment_both(Observation(image=bare)).labels.max() == 0
     even = np.full((60, 80), 0.5, dtype=np.float32)
-    assert segment(Observation(image=even), variant="robust").labels.max() == 0
+    assert segment_both(Observation(image=even)).labels.max() == 0
 
 
 def disc_image(shift: float) -> np.ndarray:

@@ -7,9 +7,10 @@ from rockshape.errors import InputError
 from rockshape.ground import fit_ground
 from rockshape.ground.range_noise import Noise
 from rockshape.observation import Observation
-from rockshape.segmentation import Segmentation, segment
+from rockshape.segmentation import Segmentation
 from rockshape.segmentation.by_range.height_signal import relief_of
-from rockshape.segmentation.robust import find_by_range
+from rockshape.segmentation.published import segment_published
+from rockshape.segmentation.robust import find_by_range, segment_both
 from tests import solids
 
 DOWN = np.array([0.0, 0.8, 0.6])  # towards the ground, in the camera frame
@@ -43,9 +44,7 @@ def noisy(points: np.ndarray, rng: np.random.Generator, *, per_m: float = 5e-4) 
 def found_in(points: np.ndarray) -> Segmentation:
     """Segmentation of points under an even image, which shows nothing."""
     image = np.full(points.shape[:2], 0.5, dtype=np.float32)
-    return segment(
-        Observation(image=image, points_m=points, camera=solids.CAMERA), variant="robust"
-    )
+    return segment_both(Observation(image=image, points_m=points, camera=solids.CAMERA))
 
 
 def overlap(one: np.ndarray, two: np.ndarray) -> float:
@@ -137,13 +136,11 @@ def test_a_column_that_goes_on_below_the_ground_is_buried() -> None:
 def test_the_published_way_is_what_it_was() -> None:
     points, truth = scene((-0.3, 2.0, 0.12), (0.3, 2.0, 0.15))
     image = np.full(points.shape[:2], 0.5, dtype=np.float32)
-    found = segment(
-        Observation(image=image, points_m=points, camera=solids.CAMERA), variant="paper"
-    )
+    found = segment_published(Observation(image=image, points_m=points, camera=solids.CAMERA))
     assert [one.branch for one in found.found] == ["range", "range"]
     assert overlap(truth > 0, found.labels > 0) > 0.9
-    with pytest.raises(InputError, match="expected range to find rocks by"):
-        segment(Observation(image=image), variant="paper")
+    with pytest.raises(InputError, match="'published' expected range"):
+        segment_published(Observation(image=image))
 
 
 def test_exact_range_keeps_its_outlines_whatever_the_image_shows() -> None:
@@ -151,9 +148,7 @@ def test_exact_range_keeps_its_outlines_whatever_the_image_shows() -> None:
     points, labels = scene((0.0, 2.0, 0.15))
     image = np.full(points.shape[:2], 0.5, dtype=np.float32)
     image[:, : image.shape[1] // 2] = 0.05  # a shadow's edge across the rock
-    found = segment(
-        Observation(image=image, points_m=points, camera=solids.CAMERA), variant="robust"
-    )
+    found = segment_both(Observation(image=image, points_m=points, camera=solids.CAMERA))
     assert all(one.outline is None for one in found.found)
     assert overlap(found.labels == found.labels[labels == 1].max(), labels == 1) > 0.98
 

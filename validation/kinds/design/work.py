@@ -12,7 +12,6 @@ from rockshape.measurement import to_frame
 from rockshape.method import methods
 from rockshape.observation import Observation
 from rockshape.pipeline import measure
-from rockshape.segmentation import segment
 from synth.camera.camera import RenderCamera as SynthCamera
 from synth.dataset.shape_truth import scene_gt_shape
 from synth.light import light_scene
@@ -184,6 +183,6 @@ def true_rocks(
     nothing. Its measures read a rock's mask, its range and the ground's plane, which are the same
     without the others.
     """
-    labels = segment(observation, variant="paper").labels
+    labels = methods()[REFERENCE].segment(observation).labels
     rocks = [match.measured for match in match_labels(instances, labels, min_iou=min_iou)]
     return np.where(np.isin(labels, rocks), labels, 0)

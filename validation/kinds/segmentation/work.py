@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from rockshape.camera.camera import Camera
 from rockshape.io import read_camera, read_image, read_range
+from rockshape.method import methods
 from rockshape.observation import Observation
-from rockshape.segmentation import Segmentation, segment
+from rockshape.segmentation import Segmentation
 from synth.camera.camera import PRESETS
 from synth.dataset.write import write_common, write_scene
 from synth.render import choose_backend
@@ -96,7 +97,7 @@ def _segment(
     baselines = {"height": fixed_height, "otsu": otsu, "watershed": plain_watershed}
     if way in baselines:
         return Segmented(baselines[way](observation), {}, float("nan"))
-    made = segment(observation, variant="paper" if way == "paper" else "robust")
+    made = methods()[way].segment(observation)
     outlines = {one.number: one.outline.points_px for one in made.found if one.outline is not None}
     return Segmented(
         made.labels,

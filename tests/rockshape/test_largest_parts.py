@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 import scipy.ndimage as ndi
 
-from rockshape.rock.patches import find_patches
+from rockshape.rock.instances import Instances
 
 SHAPE = (37, 53)
 
@@ -14,10 +14,10 @@ def test_boxes_and_pixels_are_those_of_the_largest_part(
     # blobs that touch each other, the borders, and fall into pieces
     field = ndi.gaussian_filter(rng.normal(size=(numbers + 1, *SHAPE)), (0, 1.5, 1.5))
     labels = 7 * field.argmax(axis=0).astype(np.int32)
-    patches = find_patches(labels)
-    assert [patch.number for patch in patches] == np.unique(labels[labels > 0]).tolist()
+    patches = Instances.from_labels(labels).largest_parts()
+    assert [patch.id for patch in patches] == np.unique(labels[labels > 0]).tolist()
     for patch in patches:
-        parts, count = ndi.label(labels == patch.number, structure=np.ones((3, 3)))
+        parts, count = ndi.label(labels == patch.id, structure=np.ones((3, 3)))
         sizes = np.bincount(parts.ravel())[1:]
         own = np.zeros(SHAPE, dtype=bool)
         own[patch.window] = patch.mask
@@ -27,12 +27,12 @@ def test_boxes_and_pixels_are_those_of_the_largest_part(
 
 
 def test_one_pixel_the_whole_image_and_nothing() -> None:
-    assert find_patches(np.zeros((4, 5), dtype=np.int32)) == []
-    (whole,) = find_patches(np.full((4, 5), 2**31 - 1, dtype=np.int32))
-    assert whole.number == 2**31 - 1
+    assert Instances.from_labels(np.zeros((4, 5), dtype=np.int32)).items == ()
+    (whole,) = Instances.from_labels(np.full((4, 5), 2**31 - 1, dtype=np.int32)).largest_parts()
+    assert whole.id == 2**31 - 1
     assert whole.window == (slice(0, 4), slice(0, 5))
     corner = np.zeros((4, 5), dtype=np.uint16)
     corner[3, 4] = 9
-    (pixel,) = find_patches(corner)
+    (pixel,) = Instances.from_labels(corner).largest_parts()
     assert pixel.window == (slice(3, 4), slice(4, 5))
     assert pixel.mask.tolist() == [[True]]

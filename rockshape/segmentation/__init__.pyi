@@ -1,0 +1,7 @@
+from .edges.edge_snapping import SnappedOutline as SnappedOutline
+from .finders import FINDERS as FINDERS
+from .finders import Finder as Finder
+from .finders import find_finder as find_finder
+from .result import Branch as Branch
+from .result import FoundRock as FoundRock
+from .result import Segmentation as Segmentation

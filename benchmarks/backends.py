@@ -17,7 +17,7 @@ from tempfile import TemporaryDirectory
 import cv2
 import numpy as np
 
-from synth.dataset.write import depth_scale_mm, encode_depth
+from synth.dataset.depth import depth_scale_mm, encode_depth
 from synth.light import light_scene
 from synth.render import open_renderer, render_view
 from synth.render.backends import BACKENDS, has_backend

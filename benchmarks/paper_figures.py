@@ -14,8 +14,8 @@ from skimage.draw import polygon
 
 import rockshape
 from rockshape.method import methods
+from synth.shapes.draw import draw_series
 from synth.shapes.series import LONG_SIDE_PX, shape_series
-from synth.shapes.write import draw_series
 
 SEED = 22000
 # Knobs in the order of the figures. Figure 8: "3 and 4 closer than 1 and 2". Figure 9: the steps

@@ -1,4 +1,4 @@
-"""What a user or a machine can get wrong; each error carries the command's exit status."""
+"""Errors of input, machine and reproduction; each carries the command's exit status."""
 
 
 class SpecError(ValueError):
@@ -17,3 +17,9 @@ class ReplayError(RuntimeError):
     """A dataset made again that is not the same: the message names the first differing file."""
 
     exit_status = 1
+
+
+class RenderError(RuntimeError):
+    """A rendering process that failed, died or took too long: the message says which."""
+
+    exit_status = 3

@@ -1,4 +1,4 @@
-"""The dataset's folder: one scene at a time, whole or not at all, then what belongs to all."""
+"""Dataset writing: one scene at a time, complete or not at all, then what belongs to all."""
 
 import os
 import shutil
@@ -11,14 +11,16 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.camera.trajectories import camera_distance_m, camera_of, stations
+from synth.camera.trajectories import camera_of
 from synth.dataset import bop
 from synth.dataset.contact_sheet import MAX_SCENES, sheet_row, write_contact_sheet
+from synth.dataset.depth import depth_scale_mm, encode_depth
 from synth.dataset.files import read_json, sha256, write_json, write_ply_mm, write_png
 from synth.dataset.glb import scene_glb
 from synth.dataset.shape_truth import scene_gt_shape
-from synth.light import light_scene
-from synth.render import open_renderer, render_view
+from synth.light import Stage, light_scene
+from synth.render import RenderedView, open_renderer, render_view
+from synth.render.interface import Renderer
 from synth.render.view import Sight
 from synth.scene.scene import SceneModel, build_scene
 from synth.sensor import Capture, capture_view, sensor_of
@@ -30,30 +32,12 @@ _BACKEND_DISTRIBUTION = {"osmesa": "arcade-pyrender", "egl": "arcade-pyrender", 
 
 
 def scene_name(index: int) -> str:
-    """Return a scene's folder: six digits."""
+    """Name of a scene's folder: six digits."""
     return f"{index:06d}"
 
 
-def depth_scale_mm(spec: SceneSpec) -> float:
-    """Return millimetres for a unit of the depth image, one for the whole dataset.
-
-    Rocks lie on the ground within a known reach of the scene's centre. Seen along a level distance
-    that far, and no lower than the centre, none can be deeper in any view than the centre's depth
-    and the reach's share along the axis; that depth is spread over 65,535 steps, rounded up to a
-    hundredth of a millimetre.
-    """
-    reach_m = camera_distance_m(spec.camera) + 2.0 * spec.rocks.diameter_m[1]
-    if spec.population.kind != "count":
-        reach_m = spec.population.radius_m + spec.population.d_max_m
-    farthest_m = max(
-        float(pose.translation_m[2] + reach_m * np.hypot(*pose.world_to_camera[2, :2]))
-        for pose in stations(spec.camera, spec.views)
-    )
-    return float(np.ceil(1000.0 * farthest_m / 65535.0 * 100.0) / 100.0)
-
-
 def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -> str:
-    """Make, render and write one scene; return its folder's name.
+    """Scene built, rendered and written into a dataset's folder; its folder's name.
 
     This is the unit of work: it needs nothing but its arguments and may run in any process. The
     scene is written apart, in a folder of this process's own, and renamed into place when whole,
@@ -70,17 +54,9 @@ def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -
         (folder / name).mkdir(parents=True)
     views: list[Sight] = []
     valid = []
-    for number, pose in enumerate(scene.poses):
-        view = render_view(renderer, stage, scene.camera, pose, supersample=spec.camera.supersample)
-        capture = capture_view(
-            view,
-            pose,
-            spec=spec,
-            scene=index,
-            number=number,
-            camera=scene.camera,
-            stage=stage,
-            renderer=renderer,
+    for number in range(len(scene.poses)):
+        view, capture = capture_frame(
+            spec, index, number, scene=scene, stage=stage, renderer=renderer
         )
         depth = encode_depth(capture.depth_m, scale_mm)
         _write_pictures(folder, number, capture, depth)
@@ -99,10 +75,29 @@ def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -
     return scene_name(index)
 
 
-def encode_depth(depth_m: NDArray[np.float64], scale_mm: float) -> NDArray[np.uint16]:
-    """Return depth in steps of scale_mm, 0 where nothing is or where 16 bits do not reach."""
-    steps = np.rint(np.nan_to_num(depth_m, nan=0.0) * 1000.0 / scale_mm)
-    return np.where(steps <= 65535, steps, 0).astype(np.uint16)
+def capture_frame(
+    spec: SceneSpec,
+    index: int,
+    number: int,
+    *,
+    scene: SceneModel,
+    stage: Stage,
+    renderer: Renderer,
+) -> tuple[RenderedView, Capture]:
+    """View `number` of scene `index`: as it is rendered exactly, and as the sensor captures it."""
+    pose, supersample = scene.poses[number], spec.camera.supersample
+    view = render_view(renderer, stage, scene.camera, pose, supersample=supersample)
+    capture = capture_view(
+        view,
+        pose,
+        spec=spec,
+        scene=index,
+        number=number,
+        camera=scene.camera,
+        stage=stage,
+        renderer=renderer,
+    )
+    return view, capture
 
 
 def write_common(
@@ -129,7 +124,7 @@ def write_common(
 
 
 def file_digests(out: Path) -> dict[str, str]:
-    """Return the SHA-256 of every file of a dataset but its manifest, by path in rising order."""
+    """SHA-256 of every file of a dataset but its manifest, by path in rising order."""
     paths = (path for path in out.rglob("*") if path.is_file())
     names = sorted(path.relative_to(out).as_posix() for path in paths)
     own = ("manifest.json", "manifest.draft")
@@ -141,7 +136,7 @@ def file_digests(out: Path) -> dict[str, str]:
 
 
 def identity(spec: SceneSpec, backend: RendererName) -> dict[str, Any]:
-    """Return what the dataset's bytes depend on: spec, backend and versions."""
+    """Identity of a dataset, on which its bytes depend: spec, backend and versions."""
     names = (*_DISTRIBUTIONS, _BACKEND_DISTRIBUTION[backend])
     return {
         "spec": msgspec.to_builtins(spec),

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from synth.camera.camera import PRESETS
+from synth.dataset.depth import depth_scale_mm, encode_depth
 from synth.dataset.generate import generate_dataset
-from synth.dataset.write import PARTIAL, depth_scale_mm, encode_depth, scene_name
+from synth.dataset.write import PARTIAL, scene_name
 from synth.errors import SpecError
 from synth.scene.scene import build_scene
 from synth.spec import SceneSpec

@@ -1,0 +1,68 @@
+"""Public functions: scenes and drawn shapes of known truth."""
+
+from collections.abc import Sequence
+from typing import Unpack
+
+import pandas as pd
+
+from synth.errors import SpecError
+from synth.handle.options import SceneOptions, SpecSource, spec_of
+from synth.handle.scene import Scene
+from synth.handle.shapes import DrawnShapes
+from synth.shapes.draw import draw_named_series
+from synth.spec.shapes import JITTER_RMS_PX
+
+
+def make_scene(
+    spec: SpecSource | None = None, *, index: int = 0, **options: Unpack[SceneOptions]
+) -> Scene:
+    """Scene of rocks of known shape, to be rendered view by view.
+
+    >>> scene = make_scene(rocks=6, camera="msl-navcam", seed=1)
+    >>> view = scene.render(0, noise="stereo")
+
+    `spec` is a path to a TOML file, a `SceneSpec` or a dict of its tables; without it every key
+    has its default. `index` is the scene's number in a dataset of several. The options are laid
+    over the specification: `seed`, `scenes`, `renderer`; `rocks` (count), `family` and `series` of
+    the rocks, `views` (count), `camera` (preset), `noise` (sensor), `population` (kind); each of
+    these, and `ground`, `surface`, `sun` and `sensor`, may also be a dict with keys of its table.
+
+    Raises:
+        InputError: an unknown option, key or value, named with the one that was probably meant.
+    """
+    return Scene(spec_of(spec, options), index=index)
+
+
+def make_shapes(
+    series: str = "roundness",
+    *,
+    count: int | None = None,
+    knobs: Sequence[float] | None = None,
+    seed: int = 0,
+    jitter_rms_px: float = JITTER_RMS_PX,
+) -> DrawnShapes:
+    """Drawn shapes of a series: `roundness`, `sphericity`, `both` or the chart `krumbein`.
+
+    The series' parameter rises in `count` even steps (4 by default) or takes the values `knobs`.
+    The truth is the exact outline's, from which the pen strays by `jitter_rms_px` pixels RMS.
+
+    Raises:
+        InputError: an unknown series, or a count, values, seed or jitter out of range.
+    """
+    if seed < 0:
+        raise SpecError(f"seed: expected 0 or more, found {seed}")
+    _, drawing = draw_named_series(
+        series, count=count, knobs=knobs, seed=seed, jitter_rms_px=jitter_rms_px
+    )
+    truth = pd.DataFrame(drawing.rows).rename(columns={"rock": "id"}).astype({"id": int})
+    truth.insert(1, "series", series)
+    return DrawnShapes(
+        image=drawing.image,
+        labels=drawing.labels,
+        truth=truth,
+        series=series,
+        count=count,
+        knobs=None if knobs is None else tuple(knobs),
+        seed=seed,
+        jitter_rms_px=jitter_rms_px,
+    )

@@ -1,0 +1,1 @@
+"""Handles of scenes and shapes for scripts and notebooks: rendered in worker processes."""

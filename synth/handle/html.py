@@ -1,0 +1,59 @@
+"""HTML of a view for notebooks: small images and the truth's table."""
+
+import base64
+from html import escape
+from typing import TYPE_CHECKING, Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from synth.arrays import DepthImage, Image, LabelImage
+from synth.sensor.exposure import eight_bits
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+_WIDEST_PX = 360
+_SHOWN = (
+    "id",
+    "family",
+    "half_axis_a_m",
+    "maximum_projection_sphericity",
+    "roundness",
+    "outline_axis_ratio",
+    "outline_roundness",
+    "visible_fraction",
+    "truncated",
+)
+_MOST_ROWS = 12
+
+
+def figure_html(
+    image: Image | LabelImage, depth_m: DepthImage | None, *, caption: str, table: "pd.DataFrame"
+) -> str:
+    """HTML of an image, its depth in colours if there is one, and the first rows of a table."""
+    grey = image if image.dtype == np.uint8 else eight_bits(image)
+    images = [_tag(grey)] if depth_m is None else [_tag(grey), _tag(_coloured(depth_m))]
+    columns = [name for name in _SHOWN if name in table] or list(table.columns)
+    rows = table[columns].head(_MOST_ROWS).to_html(index=False, float_format="{:.3g}".format)
+    return f"<p>{escape(caption)}</p><p>{' '.join(images)}</p>{rows}"
+
+
+def _coloured(depth_m: DepthImage) -> NDArray[np.uint8]:
+    """Depth in colours (rows, cols, 3), near yellow, white where nothing was measured."""
+    known = np.isfinite(depth_m)
+    if not known.any():
+        return np.full((*depth_m.shape, 3), 255, dtype=np.uint8)
+    near, far = np.percentile(depth_m[known], [1.0, 99.0])
+    share = np.clip((far - np.where(known, depth_m, far)) / max(far - near, 1e-6), 0.0, 1.0)
+    colours = cv2.applyColorMap(np.rint(255.0 * share).astype(np.uint8), cv2.COLORMAP_PLASMA)
+    return np.where(known[..., None], colours, np.uint8(255)).astype(np.uint8)
+
+
+def _tag(image: NDArray[Any]) -> str:
+    factor = min(1.0, _WIDEST_PX / image.shape[1])
+    size = (round(image.shape[1] * factor), round(image.shape[0] * factor))
+    _, data = cv2.imencode(".png", cv2.resize(image, size, interpolation=cv2.INTER_AREA))
+    text = base64.b64encode(data.tobytes()).decode("ascii")
+    return f'<img src="data:image/png;base64,{text}" width="{size[0]}" height="{size[1]}">'

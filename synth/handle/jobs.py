@@ -1,0 +1,87 @@
+"""Jobs of worker processes: building a scene, rendering one of its views, writing a dataset."""
+
+import pickle
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from synth.arrays import DepthImage, Image, LabelImage
+from synth.camera.camera import Pose
+from synth.dataset.depth import decode_depth, depth_scale_mm, encode_depth
+from synth.dataset.files import plain
+from synth.dataset.generate import generate_dataset
+from synth.dataset.shape_truth import scene_gt_shape
+from synth.dataset.write import capture_frame
+from synth.light import light_scene
+from synth.render import choose_backend, open_renderer
+from synth.scene.scene import SceneModel, build_scene
+from synth.sensor import sensor_of
+from synth.spec import SceneSpec
+
+Rows = list[dict[str, Any]]
+
+
+@dataclass(frozen=True, eq=False)
+class BuiltScene:
+    """A scene that is ready to be rendered, and the truth of its rocks."""
+
+    model: bytes  # pickled, for further jobs
+    rocks: Rows  # as in scene_gt_shape.json
+
+
+@dataclass(frozen=True, eq=False)
+class ViewParts:
+    """What the dataset would hold of one view."""
+
+    image: Image
+    depth_m: DepthImage
+    exact_depth_m: DepthImage
+    labels: LabelImage
+    pictures: Mapping[str, Image]
+    pose: Pose
+    rocks: Rows  # as in scene_gt_shape.json
+    visible: Rows
+
+
+def build(spec: SceneSpec, index: int) -> BuiltScene:
+    """Scene `index` of a spec, without rendering anything.
+
+    Raises:
+        InputError: the rocks do not fit on the ground.
+    """
+    model = build_scene(spec, index)
+    rocks = plain(scene_gt_shape(replace(model, poses=()), index, [])["rocks"])
+    return BuiltScene(model=pickle.dumps(model), rocks=rocks)
+
+
+def render(spec: SceneSpec, index: int, number: int, model: bytes) -> ViewParts:
+    """View `number` of a built scene, each array as a reader of the dataset has it.
+
+    Raises:
+        InputError: the sensor cannot be used with the spec's camera.
+        MissingBackendError: the machine lacks the renderer.
+    """
+    sensor_of(spec)
+    scene: SceneModel = pickle.loads(model)
+    stage = light_scene(scene, spec.sun, spec.surface)
+    renderer = open_renderer(choose_backend(spec.renderer), stage, scene.camera)
+    view, capture = capture_frame(spec, index, number, scene=scene, stage=stage, renderer=renderer)
+    scale_mm = depth_scale_mm(spec)
+    seen = replace(scene, poses=(scene.poses[number],))
+    truth = plain(scene_gt_shape(seen, index, [view.sight()]))
+    return ViewParts(
+        image=capture.picture,
+        depth_m=decode_depth(encode_depth(capture.depth_m, scale_mm), scale_mm),
+        exact_depth_m=decode_depth(encode_depth(view.depth_m, scale_mm), scale_mm),
+        labels=view.labels,
+        pictures=capture.pictures,
+        pose=scene.poses[number],
+        rocks=truth["rocks"],
+        visible=truth["views"]["0"],
+    )
+
+
+def write(spec: SceneSpec, out: Path, jobs: int) -> None:
+    """Dataset of a spec, written into a folder; see `generate_dataset`."""
+    generate_dataset(spec, out, jobs=jobs)

@@ -1,0 +1,159 @@
+"""Drawing of shapes as with an unsteady pen: image, labels and truth."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from skimage.draw import polygon as polygon_pixels
+
+from synth.errors import SpecError
+from synth.shapes.outline import axis_ratio
+from synth.shapes.series import Shape, shape_series
+from synth.spec.shapes import CHART, JITTER_RMS_PX, MAX_JITTER_PX
+
+Floats = NDArray[np.float64]
+
+_CELL_PX = 260  # a shape's share of the row
+_CHART_COLUMNS = 9
+_SUBPIXELS = 4
+_PAPER, _FILL, _INK = 236, 168, 40  # grey levels
+_PEN_WIDTH_PX = 2.5
+_JITTER_WAVELENGTH_PX = 60.0
+_SHIFT_BITS = 8
+
+
+@dataclass(frozen=True, eq=False)
+class Drawing:
+    """Shapes in rows; label k + 1 is the k-th of the series."""
+
+    image: NDArray[np.uint8]  # (rows, cols)
+    labels: NDArray[np.uint16]  # (rows, cols)
+    rows: tuple[dict[str, float], ...]  # the truth of each shape
+    drawn_px: tuple[Floats, ...]  # what the pen drew, (n, 2) each: column, row
+    middles_px: Floats  # (shapes, 2): where each shape's frame has its middle: column, row
+
+
+def draw_series(
+    shapes: list[Shape],
+    *,
+    rng: np.random.Generator,
+    columns: int | None = None,
+    jitter_rms_px: float = JITTER_RMS_PX,
+) -> Drawing:
+    """Return shapes in rows of so many columns (all in one by default), drawn by unsteady pen.
+
+    The pen strays from the exact outline along its normal by a periodic jitter of known RMS and
+    least wavelength; the label is what the pen enclosed, pixel centres inside. The truth is the
+    exact outline's.
+    """
+    across = len(shapes) if columns is None else columns
+    rows, cols = _CELL_PX * -(-len(shapes) // across), _CELL_PX * across
+    image = np.full((rows, cols), _PAPER, dtype=np.uint8)
+    labels = np.zeros((rows, cols), dtype=np.uint16)
+    table, lines, middles = [], [], []
+    for index, shape in enumerate(shapes):
+        exact = shape.outline.outline_px()
+        drawn = _unsteady(_evenly_spaced(exact), jitter_rms_px, rng)
+        row, column = divmod(index, across)
+        middle = np.array([_CELL_PX * (column + 0.5) - 0.5, _CELL_PX * (row + 0.5) - 0.5])
+        middle -= (exact.min(axis=0) + exact.max(axis=0)) / 2.0 * [1.0, -1.0]
+        pixels = middle + drawn * [1.0, -1.0]
+        inside = polygon_pixels(pixels[:, 1], pixels[:, 0], shape=labels.shape)
+        labels[inside] = index + 1
+        corner = _CELL_PX * np.array([column, row])
+        image[corner[1] : corner[1] + _CELL_PX, corner[0] : corner[0] + _CELL_PX] = _inked(
+            pixels - corner
+        )
+        table.append(_truth(index, shape, jitter_rms_px))
+        lines.append(pixels)
+        middles.append(middle)
+    return Drawing(
+        image=image,
+        labels=labels,
+        rows=tuple(table),
+        drawn_px=tuple(lines),
+        middles_px=np.array(middles),
+    )
+
+
+def draw_named_series(
+    series: str,
+    *,
+    count: int | None = None,
+    knobs: Sequence[float] | None = None,
+    seed: int = 0,
+    jitter_rms_px: float = JITTER_RMS_PX,
+) -> tuple[list[Shape], Drawing]:
+    """Shapes of a series and their drawing, a function of the arguments alone.
+
+    Raises:
+        InputError: an unknown series, or a count, values or a jitter out of range.
+    """
+    if not 0.0 <= jitter_rms_px <= MAX_JITTER_PX:
+        raise SpecError(
+            f"jitter_rms_px: expected 0 to {MAX_JITTER_PX:g} px, found {jitter_rms_px:g}"
+        )
+    rng = np.random.default_rng([seed])
+    shapes = shape_series(series, count=count, knobs=knobs, rng=rng)
+    columns = _CHART_COLUMNS if series == CHART else None
+    return shapes, draw_series(shapes, rng=rng, columns=columns, jitter_rms_px=jitter_rms_px)
+
+
+def _truth(index: int, shape: Shape, jitter_rms_px: float) -> dict[str, float]:
+    long_px, short_px = shape.sides_px
+    return {
+        "rock": index + 1,
+        "knob": shape.knob,
+        "roundness": shape.outline.roundness(),
+        "axis_ratio": axis_ratio(shape.outline.outline_px()),
+        "rectangle_ratio": short_px / long_px,
+        "area_px2": shape.outline.area_px2(),
+        "perimeter_px": shape.outline.perimeter_px(),
+        "corner_radius_px": shape.outline.radius_px,
+        "jitter_rms_px": jitter_rms_px,
+        "jitter_wavelength_px": _JITTER_WAVELENGTH_PX,
+    }
+
+
+def _evenly_spaced(points: Floats) -> Floats:
+    """Return a closed outline at steps of half a pixel along its length."""
+    closed = np.vstack([points, points[:1]])
+    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(closed, axis=0), axis=1))])
+    even = np.arange(0.0, along[-1], 0.5)
+    return np.column_stack([np.interp(even, along, closed[:, axis]) for axis in (0, 1)])
+
+
+def _unsteady(points: Floats, rms_px: float, rng: np.random.Generator) -> Floats:
+    """Return an outline with the pen's jitter along its normal, of exact RMS."""
+    harmonics = max(3, int(0.5 * len(points) / _JITTER_WAVELENGTH_PX))
+    turn = 2.0 * np.pi * np.arange(len(points)) / len(points)
+    jitter = np.zeros(len(points))
+    for harmonic in range(2, harmonics + 1):
+        weights = rng.standard_normal(2)
+        jitter += weights[0] * np.cos(harmonic * turn) + weights[1] * np.sin(harmonic * turn)
+    jitter *= rms_px / np.sqrt(np.mean(jitter**2))
+    tangent = np.roll(points, -1, axis=0) - np.roll(points, 1, axis=0)
+    normal = np.column_stack([tangent[:, 1], -tangent[:, 0]])
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    return points + jitter[:, None] * normal
+
+
+def _inked(pixels: Floats) -> NDArray[np.uint8]:
+    """Return one shape's cell of the picture: filled, its outline drawn."""
+    fine = np.full((_CELL_PX * _SUBPIXELS, _CELL_PX * _SUBPIXELS), _PAPER, dtype=np.uint8)
+    subpixels = (pixels + 0.5) * _SUBPIXELS - 0.5
+    fixed = np.rint(subpixels * 2**_SHIFT_BITS).astype(np.int32).reshape(-1, 1, 2)
+    cv2.fillPoly(fine, [fixed], _FILL, lineType=cv2.LINE_8, shift=_SHIFT_BITS)
+    cv2.polylines(
+        fine,
+        [fixed],
+        isClosed=True,
+        color=_INK,
+        thickness=round(_PEN_WIDTH_PX * _SUBPIXELS),
+        lineType=cv2.LINE_8,
+        shift=_SHIFT_BITS,
+    )
+    blocks = fine.reshape(_CELL_PX, _SUBPIXELS, _CELL_PX, _SUBPIXELS).mean(axis=(1, 3))
+    return np.asarray(np.rint(blocks), dtype=np.uint8)

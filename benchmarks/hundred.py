@@ -57,7 +57,7 @@ import sys
 import cv2
 import rockshape
 labels = cv2.imread(sys.argv[1], cv2.IMREAD_UNCHANGED)
-paper = rockshape.measure(labels=labels, descriptors=True).to_frame()
+paper = rockshape.measure(labels=labels, method="paper", descriptors=True).to_frame()
 robust = rockshape.measure(labels=labels, method="robust").to_frame()
 paper.merge(robust, on="rock").to_csv(sys.argv[2])
 """

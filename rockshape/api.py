@@ -19,7 +19,7 @@ def measure(
     range_m: ArrayLike | None = None,
     camera: PinholeLike | None = None,
     labels: ArrayLike | Instances | None = None,
-    method: str | Method = "paper",
+    method: str | Method = "robust",
     find: str | None = None,
     descriptors: bool = False,
 ) -> Measurement:

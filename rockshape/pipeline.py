@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 def measure(
     observation: Observation,
     *,
-    method: str | Method = "paper",
+    method: str | Method = "robust",
     find: str | None = None,
     labels: NDArray[np.int32] | Instances | None = None,
     descriptors: bool = False,

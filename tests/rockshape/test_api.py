@@ -94,7 +94,7 @@ def test_images_of_every_kind_are_drawn_alike(image: np.ndarray) -> None:
     ("arguments", "says"),
     [
         ({}, "image, range_m or labels"),
-        ({"image": np.zeros((9, 9))}, "'published' expected range"),
+        ({"image": np.zeros((9, 9)), "method": "paper"}, "'published' expected range"),
         ({"range_m": np.ones((9, 9))}, "expected a camera"),
         ({"range_m": np.ones((9, 9, 4))}, "found (9, 9, 4)"),
         ({"range_m": np.ones(9)}, "found (9,)"),

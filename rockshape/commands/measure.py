@@ -8,6 +8,7 @@ import argparse
 from pathlib import Path
 
 from rockshape.commands.parser import examples
+from rockshape.segmentation.finders import FINDERS
 
 HELP = "find the rocks in an image and measure the shape of each"
 
@@ -43,13 +44,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help="rocks segmented already: label image (0 is the ground) or COCO annotations",
     )
-    how = parser.add_argument_group("methods")
+    how = parser.add_argument_group("measuring")
+    how.add_argument(
+        "--find",
+        choices=tuple(FINDERS),
+        help="how rocks are found, if not as the method does: "
+        + "; ".join(f"{finder.name}: {finder.summary}" for finder in FINDERS.values()),
+    )
     how.add_argument(
         "--method",
         default="robust",
         metavar="NAME",
-        help="what is measured, and how rocks are found unless --find says otherwise: `robust` "
-        "(scale-free measures, the default), `paper` (Fox et al. 2002), or one that a plug-in adds",
+        help="what is measured: robust, scale-free measures that resist noise (default); paper, "
+        "those of Fox et al. (2002); or a method that a plug-in adds",
     )
     how.add_argument(
         "--descriptors",

@@ -5,11 +5,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from rockshape.api import observe
 from rockshape.commands.summary import summarise
 from rockshape.errors import InputError
 from rockshape.io import read_camera, read_labels, read_pixels, read_range, write_image, write_table
 from rockshape.io.files import check_writable, write_bytes
-from rockshape.io.pixels import to_grey
 from rockshape.io.registry import IMAGES, LABELS, TABLES
 from rockshape.measurement import Measurement, to_frame
 from rockshape.method import find_method
@@ -28,6 +28,7 @@ class MeasureOptions:
     range: Path | None
     camera: Path | None
     labels: Path | None
+    find: str | None
     method: str
     descriptors: bool
     flags: bool
@@ -46,22 +47,15 @@ def measure_image(options: MeasureOptions) -> None:
     method = find_method(options.method)
     _check_outputs(options)
     observation = _observe(options)
-    labels, encoded = None, None
-    if options.labels is not None:
-        labels = read_labels(
-            options.labels, shape=observation.image.shape, image_name=options.image.name
-        )
-        if options.labels_out is not None:
-            encoded = LABELS.encode(options.labels_out, labels)
+    encoded = None
+    if options.labels_out is not None and observation.instances is not None:
+        encoded = LABELS.encode(options.labels_out, observation.instances)
     measurement = measure(
-        observation,
-        method=method,
-        labels=labels,
-        descriptors=options.descriptors,
+        observation, method=method, find=options.find, descriptors=options.descriptors
     )
     if options.labels_out is not None and encoded is None:
         encoded = LABELS.encode(options.labels_out, measurement.instances)
-    _write(options, observation, measurement, encoded)
+    _write(options, measurement, encoded)
     print(summarise(measurement), file=sys.stderr)
 
 
@@ -89,20 +83,18 @@ def _outputs(options: MeasureOptions) -> Iterator[Path]:
 
 
 def _observe(options: MeasureOptions) -> Observation:
-    image = to_grey(read_pixels(options.image))
-    camera = None if options.camera is None else read_camera(options.camera, shape=image.shape)
-    points_m = None
+    pixels = read_pixels(options.image)
+    shape, name = pixels.shape, options.image.name
+    camera = None if options.camera is None else read_camera(options.camera, shape=shape)
+    points_m, instances = None, None
     if options.range is not None:
-        points_m = read_range(options.range, shape=image.shape, camera=camera)
-    return Observation(image=image, points_m=points_m, camera=camera)
+        points_m = read_range(options.range, shape=shape, camera=camera)
+    if options.labels is not None:
+        instances = read_labels(options.labels, shape=shape, image_name=name)
+    return observe(pixels, range_m=points_m, camera=camera, labels=instances)
 
 
-def _write(
-    options: MeasureOptions,
-    observation: Observation,
-    measurement: Measurement,
-    encoded: bytes | None,
-) -> None:
+def _write(options: MeasureOptions, measurement: Measurement, encoded: bytes | None) -> None:
     frame = to_frame(measurement, flags=options.flags)
     if options.out is None:
         print(frame.to_csv(index=False, float_format="%.9g"), end="")
@@ -111,9 +103,9 @@ def _write(
     if options.labels_out is not None and encoded is not None:
         write_bytes(options.labels_out, encoded)
     if options.overlay is not None:
-        write_image(options.overlay, overlay(observation.image, measurement))
+        write_image(options.overlay, overlay(measurement.observation.image, measurement))
     if options.report is not None:
         from rockshape.report.page import render_page  # noqa: PLC0415 - brings Jinja
 
-        page = render_page(options.image.name, observation.image, measurement)
+        page = render_page(options.image.name, measurement.observation.image, measurement)
         write_bytes(options.report, page.encode())

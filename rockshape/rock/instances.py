@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from rockshape.errors import InputError
 
+MAX_LABEL = 2**31 - 1  # of a label image
 Window = tuple[slice, slice]
 
 
@@ -68,7 +69,15 @@ class Instances:
         return cls((labels.shape[0], labels.shape[1]), items)
 
     def to_labels(self) -> NDArray[np.int32]:
-        """Label image (rows, cols) with each rock's id, 0 the ground; later rocks cover earlier."""
+        """Label image (rows, cols) with each rock's id, 0 the ground; later rocks cover earlier.
+
+        Raises: InputError for an id that is not in 1..2147483647.
+        """
+        wrong = next((item.id for item in self.items if not 0 < item.id <= MAX_LABEL), None)
+        if wrong is not None:
+            raise InputError(
+                f"labels: expected ids from 1 to {MAX_LABEL} for a label image, found {wrong}"
+            )
         labels = np.zeros(self.shape, dtype=np.int32)
         for item in self.items:
             labels[item.window][item.mask] = item.id

@@ -6,12 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.errors import InputError
-from rockshape.rock.instances import Instances
+from rockshape.rock.instances import MAX_LABEL, Instances
 
 if TYPE_CHECKING:
     from rockshape.io.files import InputFile
 
-MAX_LABEL = 2**31 - 1
 MAX_UINT16 = 2**16 - 1
 
 

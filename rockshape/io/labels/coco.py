@@ -5,14 +5,13 @@ Source: the data format of the COCO challenges, https://cocodataset.org/#format-
 
 from itertools import pairwise
 from math import prod
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
 import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.errors import InputError
-from rockshape.io.decoding.label_image import MAX_LABEL
 from rockshape.io.format import ImageInfo, LabelFormat
 from rockshape.rock.instances import Instance, Instances
 
@@ -33,7 +32,7 @@ class _RunLengths(msgspec.Struct):
 
 
 class _Annotation(msgspec.Struct):
-    id: int
+    id: Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)]
     image_id: int
     segmentation: list[list[float]] | _RunLengths
 
@@ -91,8 +90,6 @@ def _instance(
 ) -> Instance | None:
     """Mask of an annotation in the box of its pixels; None where it has none."""
     where = f"{file.path}: annotation {annotation.id}"
-    if not 0 < annotation.id <= MAX_LABEL:
-        raise InputError(f"{where}: expected a positive id up to {MAX_LABEL}")
     if isinstance(annotation.segmentation, _RunLengths):
         rows, cols = _run_pixels(where, annotation.segmentation, shape)
     else:

@@ -39,7 +39,8 @@ def _load(entry: EntryPoint) -> Command:
     return cast(Command, entry.load())
 
 
-def _build_parser() -> CommandParser:
+def build_parser(asked: str | None = None) -> CommandParser:
+    """Parser with the command that was asked for, or with all where it is none of them."""
     parser = CommandParser(
         prog="rockshape",
         description="Measure the shape of rocks, make rocks of known shape, compare the two.",
@@ -49,11 +50,8 @@ def _build_parser() -> CommandParser:
         ),
     )
     parser.add_argument("--version", action="version", version=f"rockshape {version('rockshape')}")
-    return parser
-
-
-def _add_commands(parser: CommandParser, *, asked: str | None) -> None:
-    """Add the command that was asked for, or all where it is none of them."""
+    if asked == "--version":
+        return parser
     entries = {entry.name: entry for entry in entry_points(group=GROUP)}
     commands = parser.add_subparsers(title="commands", metavar="COMMAND")
     for name in [asked] if asked in entries else sorted(entries):
@@ -61,6 +59,7 @@ def _add_commands(parser: CommandParser, *, asked: str | None) -> None:
         subparser = commands.add_parser(name, help=command.HELP, description=command.HELP)
         command.add_arguments(subparser)
         subparser.set_defaults(run=command.run)
+    return parser
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -69,8 +68,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     Without arguments the help is printed.
     """
     argv = sys.argv[1:] if argv is None else argv
-    parser = _build_parser()
-    _add_commands(parser, asked=argv[0] if argv else None)
+    parser = build_parser(argv[0] if argv else None)
     args = parser.parse_args(argv)
     if "run" not in args:
         parser.print_help()

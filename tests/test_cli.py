@@ -1,12 +1,52 @@
 """Frame of the command line: help, version, and suggestions for misspelt words."""
 
+import argparse
 import subprocess
 import sys
+from collections.abc import Iterator
 from importlib.metadata import version
 
 import pytest
 
-from rockshape.cli import main
+from rockshape.cli import build_parser, main
+
+HEAVY = {"numpy", "cv2", "scipy", "pandas", "trimesh", "skimage", "matplotlib", "pyarrow"}
+
+
+def _commands(parser: argparse.ArgumentParser, before: tuple[str, ...] = ()) -> Iterator[tuple]:
+    """Yield the words of each command, of each action of a command and so on."""
+    yield before
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            for word, nested in action.choices.items():
+                yield from _commands(nested, (*before, word))
+
+
+COMMANDS = list(_commands(build_parser()))
+LIGHT = [words for words in COMMANDS if words and words[0] != "validate"]
+
+
+def _run(*arguments: str) -> tuple[str, set[str]]:
+    """What a run prints, and the packages that it imports."""
+    command = [sys.executable, "-X", "importtime", "-m", "rockshape.cli", *arguments]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    modules = {line.rpartition("|")[2].strip() for line in done.stderr.splitlines()}
+    assert "argparse" in modules
+    return done.stdout, {module.partition(".")[0] for module in modules}
+
+
+def test_all_commands_are_seen():
+    assert {("measure",), ("synth", "scene"), ("validate", "run")} <= set(COMMANDS)
+
+
+@pytest.mark.parametrize("words", LIGHT, ids=" ".join)
+def test_every_help_has_two_examples_and_imports_nothing_heavy(words):
+    printed, imported = _run(*words, "--help")
+    assert imported & HEAVY == set()
+    examples = printed.partition("\nexamples:\n")[2].splitlines()
+    beginning = " ".join(["  rockshape", *words])
+    assert len(examples) == 2
+    assert all(line.startswith(beginning) for line in examples), examples
 
 
 def test_without_arguments_the_help_is_printed(capsys):
@@ -18,10 +58,10 @@ def test_without_arguments_the_help_is_printed(capsys):
         assert f"\n    {command} " in printed.out
 
 
-def test_version_is_the_distributions():
-    command = [sys.executable, "-m", "rockshape.cli", "--version"]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    assert done.stdout == f"rockshape {version('rockshape')}\n"
+def test_the_version_is_the_distributions_and_imports_nothing_heavy():
+    printed, imported = _run("--version")
+    assert printed == f"rockshape {version('rockshape')}\n"
+    assert imported & HEAVY == set()
 
 
 @pytest.mark.parametrize(

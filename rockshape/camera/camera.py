@@ -44,7 +44,7 @@ class PinholeLike(Protocol):
 class Camera:
     """Intrinsics of a pinhole camera without distortion.
 
-    Raises InputError where a focal length or a side is not positive, or the principal point not
+    Raises: InputError where a focal length or a side is not positive, or the principal point not
     finite.
     """
 
@@ -77,7 +77,7 @@ class Camera:
 
         depth_m is (rows, cols) z-depth, NaN where nothing was measured; the result is
         (rows, cols, 3) in the camera frame, metres.
-        Raises InputError where the depth is not of the camera's shape.
+        Raises: InputError where the depth is not of the camera's shape.
         """
         if depth_m.shape != self.shape:
             raise InputError(
@@ -147,7 +147,7 @@ def _number(name: str, value: object) -> float:
 
 def _pixels(name: str, value: object) -> int:
     if value is None:
-        raise InputError(f"camera: {name}: expected the image's, px, found none")
+        raise InputError(f"camera: {name}: expected the image's {name}, px, found none")
     number = _number(name, value)
     if not number.is_integer():
         raise InputError(f"camera: {name}: expected a whole number, found {value!r}")

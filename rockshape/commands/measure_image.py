@@ -41,7 +41,7 @@ class MeasureOptions:
 def measure_image(options: MeasureOptions) -> None:
     """Measure one image, write the outputs that were asked for and a summary to stderr.
 
-    Raises InputError for an input that cannot be used or an output that cannot be written; the
+    Raises: InputError for an input that cannot be used or an output that cannot be written; the
     latter before any work is done.
     """
     method = find_method(options.method)
@@ -60,7 +60,7 @@ def measure_image(options: MeasureOptions) -> None:
 
 
 def _check_outputs(options: MeasureOptions) -> None:
-    """Raises InputError for an output that cannot be written, is an input or is named twice."""
+    """Raises: InputError for an output that cannot be written, is an input or is named twice."""
     inputs = (options.image, options.range, options.camera, options.labels)
     taken = [path.resolve() for path in inputs if path is not None]
     for path in _outputs(options):

@@ -1,3 +1,4 @@
+from .files import InputFile as InputFile
 from .format import CameraFormat as CameraFormat
 from .format import Format as Format
 from .format import ImageFormat as ImageFormat

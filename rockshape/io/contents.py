@@ -23,9 +23,10 @@ _JSON_START = re.compile(rb"\s*(\{\s*[\"}]|\[\s*[\[{\d\]-])")
 
 def describe_content(head: bytes, formats: Iterable[Format]) -> str:
     """Name of what a file begins with: of the known format of any kind, else of the data."""
-    for each in formats:
-        if each.accepts(head):
-            return f"{each.name} ({each.kind})"
+    known = [each for each in formats if each.accepts(head)]
+    if known:
+        kinds = dict.fromkeys(each.kind for each in known if each.name == known[0].name)
+        return f"{known[0].name} ({' or '.join(kinds)})"
     for signature, name in _SIGNATURES.items():
         if head.startswith(signature):
             return name

@@ -22,12 +22,12 @@ class InputFile:
 
     @cached_property
     def head(self) -> bytes:
-        """First bytes. Raises InputError where the file is missing, a folder, empty or locked."""
+        """First bytes. Raises: InputError where the file is missing, a folder, empty or locked."""
         return self._read(HEAD_BYTES)
 
     @cached_property
     def data(self) -> bytes:
-        """All bytes. Raises InputError as `head` does."""
+        """All bytes. Raises: InputError as `head` does."""
         return self._read(-1)
 
     def _read(self, size: int) -> bytes:
@@ -50,7 +50,7 @@ class InputFile:
 
 
 def check_writable(path: Path, *, suffixes: Collection[str]) -> None:
-    """Raises InputError where a file cannot be written, before any work is done for it.
+    """Raises: InputError where a file cannot be written, before any work is done for it.
 
     suffixes are those that the path's name may have, `.png` for instance.
     """
@@ -72,7 +72,7 @@ def check_writable(path: Path, *, suffixes: Collection[str]) -> None:
 def write_bytes(path: Path, data: bytes) -> None:
     """Write a file whole or not at all: first beside it, then renamed.
 
-    Raises InputError where the system refuses: a full disk, a folder that takes no files.
+    Raises: InputError where the system refuses: a full disk, a folder that takes no files.
     """
     check_writable(path, suffixes=(path.suffix.lower(),))
     try:

@@ -16,7 +16,7 @@ def to_unit(pixels: NDArray[np.generic]) -> NDArray[np.float32]:
 
     pixels is (rows, cols) or (rows, cols, channels), of 8 or 16 bits or floats from 0 to 1; of one
     or two channels the first is grey, of more the first three are red, green and blue.
-    Raises InputError for any other shape or type.
+    Raises: InputError for any other shape or type.
     """
     return _scaled(_opaque(pixels))
 

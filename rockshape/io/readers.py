@@ -20,7 +20,7 @@ from rockshape.rock.instances import Instances
 def read_pixels(path: Path | str) -> NDArray[np.uint8] | NDArray[np.uint16]:
     """Pixels (rows, cols) or (rows, cols, channels) of an image as they are stored.
 
-    Raises InputError for anything but a whole image of 8 or 16 bits a channel.
+    Raises: InputError for anything but a whole image of 8 or 16 bits a channel.
     """
     with IMAGES.open(path) as (file, chosen):
         pixels = chosen.read(file)
@@ -32,7 +32,7 @@ def read_pixels(path: Path | str) -> NDArray[np.uint8] | NDArray[np.uint16]:
 def read_image(path: Path | str) -> NDArray[np.float32]:
     """Image (rows, cols) grey or (rows, cols, 3) RGB, from 0 to 1; alpha is dropped.
 
-    Raises InputError for anything but a whole image of 8 or 16 bits a channel.
+    Raises: InputError for anything but a whole image of 8 or 16 bits a channel.
     """
     return to_unit(read_pixels(path))
 
@@ -41,7 +41,7 @@ def read_labels(path: Path | str, *, shape: tuple[int, ...], image_name: str = "
     """Rocks outlined in an image of a shape (rows, cols, …): own masks, ids as the file has them.
 
     image_name chooses the image in a file of several.
-    Raises InputError where the file holds no such labels or those of another shape.
+    Raises: InputError where the file holds no such labels or those of another shape.
     """
     info = _image_info(shape, image_name)
     with LABELS.open(path) as (file, chosen):
@@ -58,7 +58,7 @@ def read_range(
 
     The file holds points, taken as they are, or z-depth, which needs the camera. shape is the
     image's. A point with any coordinate infinite or NaN is NaN in all.
-    Raises InputError where the file is no such range or of another shape.
+    Raises: InputError where the file is no such range or of another shape.
     """
     info = _image_info(shape)
     with RANGES.open(path) as (file, chosen):
@@ -72,7 +72,7 @@ def read_range(
 def read_camera(path: Path | str, *, shape: tuple[int, ...] | None = None) -> Camera:
     """Camera intrinsics; shape, the image's, stands in where the file tells no width and height.
 
-    Raises InputError that names what is missing or wrong, and for a lens that distorts.
+    Raises: InputError that names what is missing or wrong, and for a lens that distorts.
     """
     info = None if shape is None else _image_info(shape)
     with CAMERAS.open(path) as (file, chosen):

@@ -67,7 +67,7 @@ class FormatRegistry(Generic[F]):
     def register(self, added: F) -> None:
         """Add a format for this process; one registered before by the same name is replaced.
 
-        Raises InputError where an installed format has that name.
+        Raises: InputError where an installed format has that name.
         """
         others = [each.name for each in self.formats if each.name not in self.registered]
         if added.name in others:
@@ -81,7 +81,7 @@ class FormatRegistry(Generic[F]):
     def open(self, path: Path | str) -> Iterator[tuple[InputFile, F]]:
         """Choose the format of a file; whatever a reader raises within becomes an InputError.
 
-        Raises InputError where no known format fits.
+        Raises: InputError where no known format fits.
         """
         readable = [each for each in self.formats if each.readable]
         names = ", ".join(dict.fromkeys(each.name for each in readable))
@@ -98,7 +98,7 @@ class FormatRegistry(Generic[F]):
     def encode(self, path: Path | str, content: object) -> bytes:
         """Content of a file in the format that the path's suffix names; nothing is written.
 
-        Raises InputError for another suffix and for content that the format cannot hold.
+        Raises: InputError for another suffix and for content that the format cannot hold.
         """
         chosen = self.for_writing(Path(path))
         try:
@@ -109,7 +109,7 @@ class FormatRegistry(Generic[F]):
     def for_writing(self, path: Path) -> F:
         """Return the format that a path's suffix names.
 
-        Raises InputError where there is none or the file cannot be written.
+        Raises: InputError where there is none or the file cannot be written.
         """
         writable = [each for each in self.formats if each.writable]
         suffixes = dict.fromkeys(suffix for each in writable for suffix in each.suffixes)
@@ -128,7 +128,7 @@ REGISTRIES: tuple[FormatRegistry[Any], ...] = (IMAGES, LABELS, RANGES, CAMERAS, 
 def register_format(added: Format) -> None:
     """Add a format to the registry of its kind, for this process.
 
-    Raises InputError where an installed format of the kind has its name.
+    Raises: InputError where an installed format of the kind has its name.
     """
     _registry_of(added).register(added)
 
@@ -157,7 +157,7 @@ def _from_entry_points() -> tuple[Format, ...]:
 
 
 def _load(point: EntryPoint) -> Format:
-    """Return the format that an entry point names. Raises InputError where it names none."""
+    """Return the format that an entry point names. Raises: InputError where it names none."""
     where = f"entry point {point.name} = {point.value} of {GROUP}"
     try:
         loaded: object = point.load()

@@ -26,7 +26,7 @@ def write_image(path: Path | str, pixels: NDArray[np.uint8] | NDArray[np.uint16]
 def write_labels(path: Path | str, instances: "Instances") -> None:
     """Write labels in the format that the suffix names.
 
-    Raises InputError for instances that the format cannot hold, overlaps in a label image.
+    Raises: InputError for instances that the format cannot hold, overlaps in a label image.
     """
     write_bytes(Path(path), LABELS.encode(path, instances))
 

@@ -4,8 +4,7 @@ import io
 
 import numpy as np
 
-from rockshape.io import ImageInfo, RangeFormat, RangeRaster
-from rockshape.io.files import InputFile
+from rockshape.io import ImageInfo, InputFile, RangeFormat, RangeRaster
 
 
 def read_xyz(file: InputFile, info: ImageInfo) -> RangeRaster:

@@ -81,5 +81,7 @@ def test_what_is_no_camera_is_refused(changed: dict[str, object], says: str) -> 
 
 
 def test_the_size_must_be_known() -> None:
-    with pytest.raises(InputError, match="camera: width: expected the image's, px, found none"):
+    with pytest.raises(
+        InputError, match="camera: width: expected the image's width, px, found none"
+    ):
         as_camera(Lens())

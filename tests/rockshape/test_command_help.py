@@ -7,6 +7,7 @@ import pytest
 
 from rockshape.cli import main
 from rockshape.io import known_formats
+from rockshape.io.registry import REGISTRIES
 from rockshape.method import methods
 
 HEAVY = ("numpy", "cv2", "pandas", "scipy", "PIL", "matplotlib", "skimage", "msgspec")
@@ -50,13 +51,9 @@ def test_the_methods_are_in_the_help(capsys: pytest.CaptureFixture[str]) -> None
 def test_formats_lists_every_format_under_its_kind(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["formats"]) == 0
     blocks = capsys.readouterr().out.split("\n\n")
-    assert [block.splitlines()[0] for block in blocks] == [
-        "image",
-        "labels",
-        "range",
-        "camera",
-        "table",
-    ]
+    kinds = ["image", "labels", "range", "camera", "table"]
+    assert [block.splitlines()[0] for block in blocks] == kinds
+    assert [registry.kind for registry in REGISTRIES] == kinds
     for block in blocks:
         kind, heading, *rows = block.splitlines()
         names = [each.name for each in known_formats() if each.kind == kind]

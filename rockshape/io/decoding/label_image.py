@@ -17,7 +17,7 @@ MAX_UINT16 = 2**16 - 1
 def instances_of(file: "InputFile", labels: NDArray[np.generic]) -> Instances:
     """Instances of a label image that a file holds.
 
-    Raises InputError for anything but a grey image of whole numbers from 0 to 2147483647.
+    Raises: InputError for anything but a grey image of whole numbers from 0 to 2147483647.
     """
     if labels.ndim != 2 or not np.issubdtype(labels.dtype, np.integer):
         raise InputError(
@@ -35,7 +35,7 @@ def instances_of(file: "InputFile", labels: NDArray[np.generic]) -> Instances:
 def label_image_16bit(instances: Instances) -> NDArray[np.uint16]:
     """Label image of instances, for a format of 16 bits.
 
-    Raises InputError where an id is not in 1..65535, or rocks overlap: a label image holds one
+    Raises: InputError where an id is not in 1..65535, or rocks overlap: a label image holds one
     rock a pixel.
     """
     wrong = next((each.id for each in instances if not 0 < each.id <= MAX_UINT16), None)

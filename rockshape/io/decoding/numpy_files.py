@@ -18,7 +18,7 @@ ZIP_MAGIC = b"PK\x03\x04"
 
 
 def load_npy(file: "InputFile") -> NDArray[np.generic]:
-    """Array of an .npy file. Raises InputError for pickled objects, ValueError for damage."""
+    """Array of an .npy file. Raises: InputError for pickled objects, ValueError for damage."""
     with _unpickled(file):
         return np.asarray(np.load(io.BytesIO(file.data), allow_pickle=False))
 
@@ -26,7 +26,7 @@ def load_npy(file: "InputFile") -> NDArray[np.generic]:
 def load_npz(file: "InputFile", keys: Collection[str]) -> NDArray[np.generic]:
     """Array of an .npz file under the first of the keys that it has; others are not read.
 
-    Raises InputError where it has none of the keys or holds pickled objects.
+    Raises: InputError where it has none of the keys or holds pickled objects.
     """
     with _unpickled(file), np.load(io.BytesIO(file.data), allow_pickle=False) as members:
         key = next((key for key in keys if key in members.files), None)

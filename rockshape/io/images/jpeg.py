@@ -9,7 +9,7 @@ from rockshape.io.format import ImageFormat, magic
 
 
 def encode_jpeg(pixels: NDArray[np.uint8] | NDArray[np.uint16]) -> bytes:
-    """JPEG of 8-bit pixels. Raises InputError for 16 bits."""
+    """JPEG of 8-bit pixels. Raises: InputError for 16 bits."""
     if pixels.dtype != np.uint8:
         raise InputError(f"expected 8 bits a channel for JPEG, found {pixels.dtype}")
     return encode_raster(".jpg", pixels)

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def read_npy(file: "InputFile", _: ImageInfo) -> "Instances":
-    """Instances of an integer array (rows, cols). Raises InputError for any other array."""
+    """Instances of an integer array (rows, cols). Raises: InputError for any other array."""
     return instances_of(file, load_npy(file))
 
 

@@ -12,12 +12,12 @@ if TYPE_CHECKING:
 
 
 def read_png(file: "InputFile", _: ImageInfo) -> "Instances":
-    """Instances of a grey PNG. Raises InputError where it is no label image."""
+    """Instances of a grey PNG. Raises: InputError where it is no label image."""
     return instances_of(file, decode_picture(file))
 
 
 def write_png(instances: "Instances") -> bytes:
-    """Grey PNG of 16 bits. Raises InputError for overlaps and for ids that it cannot hold."""
+    """Grey PNG of 16 bits. Raises: InputError for overlaps and for ids that it cannot hold."""
     return encode_raster(".png", label_image_16bit(instances))
 
 

@@ -12,12 +12,12 @@ if TYPE_CHECKING:
 
 
 def read_tiff(file: "InputFile", _: ImageInfo) -> "Instances":
-    """Instances of a grey TIFF. Raises InputError where it is no label image."""
+    """Instances of a grey TIFF. Raises: InputError where it is no label image."""
     return instances_of(file, decode_tiff(file))
 
 
 def write_tiff(instances: "Instances") -> bytes:
-    """Grey TIFF of 16 bits. Raises InputError for overlaps and for ids that it cannot hold."""
+    """Grey TIFF of 16 bits. Raises: InputError for overlaps and for ids that it cannot hold."""
     return encode_raster(".tif", label_image_16bit(instances))
 
 

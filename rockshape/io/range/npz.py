@@ -14,7 +14,7 @@ KEYS = ("xyz", "depth")
 def read_npz(file: "InputFile", _: ImageInfo) -> RangeRaster:
     """Points (rows, cols, 3) under xyz or z-depth (rows, cols) under depth, m.
 
-    Raises InputError where the archive has neither.
+    Raises: InputError where the archive has neither.
     """
     return RangeRaster(load_npz(file, KEYS))
 

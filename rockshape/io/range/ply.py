@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 def read_ply(file: "InputFile", info: ImageInfo) -> RangeRaster:
     """Points (rows, cols, 3), m, from one vertex a pixel in the image's reading order.
 
-    Raises InputError for another number of vertices.
+    Raises: InputError for another number of vertices.
     """
     from trimesh.exchange.ply import load_ply  # noqa: PLC0415 - it takes 0.3 s
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def read_png(file: "InputFile", _: ImageInfo) -> RangeRaster:
-    """Z-depth (rows, cols) in steps. Raises InputError for anything but 16 bits of grey."""
+    """Z-depth (rows, cols) in steps. Raises: InputError for anything but 16 bits of grey."""
     steps = decode_picture(file)
     if steps.dtype != np.uint16 or steps.ndim != 2:
         raise InputError(

@@ -171,7 +171,8 @@ CONTENTS = {
     b"\0\1\2\3\xff": "unknown data that begin with 00 01 02 03",
     b"ply\nformat ascii 1.0\n": "PLY (range)",
     b"\xff\xd8\xff\xe0": "JPEG (image)",
-    b"\x93NUMPY": "NPY (labels)",
+    b"II*\0": "TIFF (image or labels or range)",
+    b"\x93NUMPY": "NPY (labels or range)",
 }
 
 

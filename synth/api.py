@@ -28,7 +28,7 @@ def make_scene(
     these, and `ground`, `surface`, `sun` and `sensor`, may also be a dict with keys of its table.
 
     Raises:
-        InputError: an unknown option, key or value, named with the one that was probably meant.
+        SpecError: an unknown option, key or value, named with the one that was probably meant.
     """
     return Scene(spec_of(spec, options), index=index)
 
@@ -47,7 +47,7 @@ def make_shapes(
     The truth is the exact outline's, from which the pen strays by `jitter_rms_px` pixels RMS.
 
     Raises:
-        InputError: an unknown series, or a count, values, seed or jitter out of range.
+        SpecError: an unknown series, or a count, values, seed or jitter out of range.
     """
     if seed < 0:
         raise SpecError(f"seed: expected 0 or more, found {seed}")

@@ -99,7 +99,7 @@ def run(args: argparse.Namespace) -> int:
     """Generate what was asked for and return 0.
 
     Raises:
-        InputError: an argument or a specification that cannot be used.
+        SpecError: an argument or a specification that cannot be used.
         MissingBackendError: the machine lacks the renderer.
         ReplayError: a dataset generated again is not the same.
     """
@@ -154,7 +154,7 @@ def _import_plugin(name: str) -> None:
 
 
 def _named_as_option(text: str) -> str:
-    """Return a complaint about an argument of `write_series` with the option's name."""
+    """Complaint about an argument of `write_series` with the option's name."""
     name, _, rest = text.partition(":")
     options = {"series": "series", "count": "count", "knobs": "knobs", "jitter_rms_px": "jitter"}
     return f"--{options[name]}:{rest}" if name in options else text
@@ -171,7 +171,7 @@ def _reject_beside_replay(args: argparse.Namespace) -> None:
 
 
 def _numbers(option: str, text: str | None) -> list[float] | None:
-    """Return comma-separated numbers, None where the option was not given."""
+    """Comma-separated numbers, None where the option was not given."""
     if text is None:
         return None
     try:
@@ -181,7 +181,7 @@ def _numbers(option: str, text: str | None) -> list[float] | None:
 
 
 def _spec(args: argparse.Namespace) -> SceneSpec:
-    """Return the spec of the file, or the default one, with the options laid over it."""
+    """Spec of the file, or the default one, with the options laid over it."""
     _require("--camera", args.camera, get_args(PresetName))
     _require("--renderer", args.renderer, get_args(RendererName))
     _require("--noise", args.noise, SENSORS.names)

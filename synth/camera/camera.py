@@ -1,4 +1,4 @@
-"""The camera: presets, poses and projection, in OpenCV's frame (x right, y down, z forward)."""
+"""Camera model: presets, poses and projection, in OpenCV's frame (x right, y down, z forward)."""
 
 from dataclasses import dataclass, replace
 from typing import Any
@@ -18,7 +18,7 @@ _FOUND = 1e-9  # of x/z: a ray that the lens puts farther off than this is none
 
 @dataclass(frozen=True)
 class RenderCamera:
-    """A pinhole camera; integer pixels are pixel centres, (0, 0) the upper-left one's."""
+    """Pinhole camera, with a lens or without; integer pixel coordinates are pixel centres."""
 
     fx: float  # pixels
     fy: float  # pixels
@@ -29,11 +29,11 @@ class RenderCamera:
     distortion: tuple[float, ...] | None = None  # k1, k2, p1, p2, k3 of OpenCV; None: a pinhole
 
     def matrix(self) -> Floats:
-        """Return K, (3, 3): pixels from camera coordinates over depth."""
+        """Camera matrix K, (3, 3): pixels from camera coordinates over depth."""
         return np.array([[self.fx, 0.0, self.cx], [0.0, self.fy, self.cy], [0.0, 0.0, 1.0]])
 
     def refined(self, factor: int) -> "RenderCamera":
-        """Return the camera with each pixel split into factor × factor, over the same field."""
+        """Camera with each pixel split into factor × factor, over the same field."""
         return RenderCamera(
             fx=self.fx * factor,
             fy=self.fy * factor,
@@ -47,7 +47,7 @@ class RenderCamera:
 
 @dataclass(frozen=True)
 class Preset:
-    """A flown camera, its stereo baseline and the distance at which default rocks suit it."""
+    """Camera preset: a flown camera, its stereo baseline and a suitable distance from the rocks."""
 
     camera: RenderCamera
     distance_m: float
@@ -57,7 +57,7 @@ class Preset:
 def _preset(
     width_px: int, height_px: int, *, pixel_mrad: float, baseline_m: float, distance_m: float
 ) -> Preset:
-    """Return a preset with square pixels and the principal point in the frame's middle."""
+    """Preset with square pixels and the principal point in the frame's middle."""
     focal_px = 1000.0 / pixel_mrad
     camera = RenderCamera(
         fx=focal_px,
@@ -90,28 +90,28 @@ PRESETS = {
 
 @dataclass(frozen=True, eq=False)
 class Pose:
-    """Where a camera stands: camera = world_to_camera · world + translation_m."""
+    """Camera pose: camera = world_to_camera · world + translation_m."""
 
     world_to_camera: Floats  # (3, 3) rotation
     translation_m: Floats  # (3,)
 
     def position_m(self) -> Floats:
-        """Return the camera's centre in the world, (3,)."""
+        """Camera's centre in the world, (3,)."""
         return np.asarray(-self.world_to_camera.T @ self.translation_m)
 
     def camera_points_m(self, world_points_m: Floats) -> Floats:
-        """Return world points, (..., 3), in the camera's frame."""
+        """World points, (..., 3), in the camera's frame."""
         return np.asarray(world_points_m @ self.world_to_camera.T + self.translation_m)
 
 
 def right_eye(pose: Pose, baseline_m: float) -> Pose:
-    """Return the pose of a second, parallel camera, a baseline to the right of the first."""
+    """Pose of a second, parallel camera, a baseline to the right of the first."""
     shift_m = np.array([baseline_m, 0.0, 0.0])
     return Pose(pose.world_to_camera, pose.translation_m - shift_m)
 
 
 def look_at(position_m: Floats, target_m: Floats, *, roll_rad: float = 0.0) -> Pose:
-    """Return the pose at a position that has the target on its axis, rolled from a level horizon.
+    """Pose at a position that has the target on its axis, rolled from a level horizon.
 
     A roll turns the camera clockwise about its axis, so the image turns anticlockwise.
     Straight up or down the horizon is undefined; the image's right is then the world's x.
@@ -130,7 +130,7 @@ def look_at(position_m: Floats, target_m: Floats, *, roll_rad: float = 0.0) -> P
 
 
 def project(camera: RenderCamera, points_m: Floats) -> Floats:
-    """Return pixels (column, row), (..., 2), of camera-frame points (..., 3) in front of it."""
+    """Projection: pixels (column, row), (..., 2), of camera-frame points (..., 3) ahead of it."""
     across = points_m[..., 0] / points_m[..., 2]
     down = points_m[..., 1] / points_m[..., 2]
     x, y = distorted(camera, across, down)
@@ -138,7 +138,7 @@ def project(camera: RenderCamera, points_m: Floats) -> Floats:
 
 
 def distorted(camera: RenderCamera, across: Reals, down: Reals) -> tuple[Reals, Reals]:
-    """Return where the lens puts rays (x/z, y/z), by Brown and Conrady's model as OpenCV has it."""
+    """Lens distortion of rays (x/z, y/z), by the Brown–Conrady model as OpenCV has it."""
     if camera.distortion is None:
         return across, down
     k1, k2, p1, p2, k3 = camera.distortion
@@ -151,7 +151,7 @@ def distorted(camera: RenderCamera, across: Reals, down: Reals) -> tuple[Reals, 
 
 
 def undistorted(camera: RenderCamera, across: Reals, down: Reals) -> tuple[Reals, Reals]:
-    """Return the rays (x/z, y/z) that the lens puts there: the inverse of `distorted`.
+    """Inverse lens distortion: the rays (x/z, y/z) that the lens shows there.
 
     Newton's method from the place itself. Where the lens folds the image, some places have no
     ray, and what is returned is none: see `check_lens`. Both arguments are broadcast together.
@@ -173,7 +173,7 @@ def undistorted(camera: RenderCamera, across: Reals, down: Reals) -> tuple[Reals
 def _newton_step(
     lens: tuple[float, ...], x: Reals, y: Reals, wanted_x: Reals, wanted_y: Reals
 ) -> tuple[Reals, Reals]:
-    """Return J⁻¹ (distorted(x, y) − wanted), J the lens's Jacobian, which is symmetric."""
+    """Newton step J⁻¹ (distorted(x, y) − wanted), J the lens's Jacobian, which is symmetric."""
     k1, k2, p1, p2, k3 = lens
     square = x**2 + y**2
     radial = 1.0 + square * (k1 + square * (k2 + square * k3))
@@ -188,7 +188,7 @@ def _newton_step(
 
 
 def pixel_rays(camera: RenderCamera) -> tuple[Floats, Floats]:
-    """Return where the pixels' centres lie over the focal length, (1, cols) and (rows, 1)."""
+    """Pixel centres over the focal length, (1, cols) and (rows, 1)."""
     columns, rows = np.arange(camera.width)[None, :], np.arange(camera.height)[:, None]
     return (
         np.asarray((columns - camera.cx) / camera.fx, dtype=np.float64),
@@ -197,7 +197,7 @@ def pixel_rays(camera: RenderCamera) -> tuple[Floats, Floats]:
 
 
 def border_rays(camera: RenderCamera) -> tuple[Floats, Floats, Floats, Floats]:
-    """Return the rays (x/z, y/z), (n, 2), along the frame's left, top, right and bottom side."""
+    """Rays (x/z, y/z), (n, 2), along the frame's left, top, right and bottom side."""
     columns = np.arange(camera.width + 1) - 0.5
     rows = np.arange(camera.height + 1) - 0.5
     left, right = np.full(len(rows), -0.5), np.full(len(rows), camera.width - 0.5)
@@ -213,10 +213,10 @@ def border_rays(camera: RenderCamera) -> tuple[Floats, Floats, Floats, Floats]:
 
 
 def check_lens(camera: RenderCamera) -> None:
-    """Make sure that each place of the frame has a ray of its own.
+    """Lens check: each place of the frame has a ray of its own.
 
     Raises:
-        InputError: the lens folds the image inside the frame.
+        SpecError: the lens folds the image inside the frame.
     """
     if camera.distortion is None:
         return

@@ -1,4 +1,4 @@
-"""Paths: where the camera stops, and what it looks at from there."""
+"""Camera trajectories: stations and what is looked at from there."""
 
 from dataclasses import replace
 
@@ -9,10 +9,10 @@ from synth.spec.view import CameraSpec, ViewsSpec
 
 
 def camera_of(spec: CameraSpec) -> RenderCamera:
-    """Return the preset's camera with the spec's lens.
+    """Preset's camera with the spec's lens.
 
     Raises:
-        InputError: the lens folds the image inside the frame.
+        SpecError: the lens folds the image inside the frame.
     """
     camera = PRESETS[spec.preset].camera
     if not any(spec.distortion):
@@ -23,12 +23,12 @@ def camera_of(spec: CameraSpec) -> RenderCamera:
 
 
 def camera_distance_m(spec: CameraSpec) -> float:
-    """Return the camera's distance from the scene's centre, on a drive-by the least one."""
+    """Camera's distance from the scene's centre, on a drive-by the least one."""
     return PRESETS[spec.preset].distance_m if spec.distance_m is None else spec.distance_m
 
 
 def stations(camera: CameraSpec, views: ViewsSpec) -> list[Pose]:
-    """Return the poses of a scene's views."""
+    """Poses of a scene's views."""
     places_m = _places_m(camera, views)
     targets_m = np.broadcast_to(np.array(camera.target_m), places_m.shape)
     if views.path == "pan":
@@ -42,7 +42,7 @@ def stations(camera: CameraSpec, views: ViewsSpec) -> list[Pose]:
 
 
 def ring(*, count: int, distance_m: float, elevation_rad: float, start_rad: float) -> list[Pose]:
-    """Return `count` poses evenly round the vertical through the origin, all looking at it."""
+    """Ring of `count` poses evenly round the vertical through the origin, all looking at it."""
     azimuths_rad = start_rad + 2.0 * np.pi * np.arange(count) / count
     return [
         look_at(place, np.zeros(3)) for place in _round(azimuths_rad, distance_m, elevation_rad)
@@ -50,7 +50,7 @@ def ring(*, count: int, distance_m: float, elevation_rad: float, start_rad: floa
 
 
 def _places_m(camera: CameraSpec, views: ViewsSpec) -> Floats:
-    """Return the stations, (n, 3)."""
+    """Stations, (n, 3)."""
     distance_m, elevation_rad = camera_distance_m(camera), np.deg2rad(camera.elevation_deg)
     start_rad = np.deg2rad(views.start_deg)
     if views.path == "ring":
@@ -67,19 +67,19 @@ def _places_m(camera: CameraSpec, views: ViewsSpec) -> Floats:
 
 
 def _shares(count: int) -> Floats:
-    """Return count numbers evenly from −1/2 to 1/2, (count,)."""
+    """Numbers evenly from −1/2 to 1/2, (count,)."""
     return np.linspace(-0.5, 0.5, count) if count > 1 else np.zeros(1)
 
 
 def _turned(ways_m: Floats, angles_rad: Floats) -> Floats:
-    """Return vectors (n, 3) turned about the vertical by angles (n,), from x towards y."""
+    """Vectors (n, 3) turned about the vertical by angles (n,), from x towards y."""
     cosine, sine = np.cos(angles_rad), np.sin(angles_rad)
     x_m, y_m, z_m = ways_m.T
     return np.column_stack([cosine * x_m - sine * y_m, sine * x_m + cosine * y_m, z_m])
 
 
 def _round(azimuths_rad: Floats, distance_m: float, elevation_rad: float) -> Floats:
-    """Return places at one distance and elevation from the origin, (n, 3)."""
+    """Places at one distance and elevation from the origin, (n, 3)."""
     level_m, height_m = distance_m * np.cos(elevation_rad), distance_m * np.sin(elevation_rad)
     return np.column_stack(
         [

@@ -1,4 +1,4 @@
-"""The records of one scene in BOP's and COCO's forms: plain tables for JSON."""
+"""BOP and COCO records of one scene: plain tables for JSON."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -23,12 +23,12 @@ MAX_ROCKS = 1000  # object ids leave this much room for each scene
 
 
 def object_id(scene: int, instance: int) -> int:
-    """Return a rock's number in the dataset: 1000 × scene + instance + 1."""
+    """Rock's number in the dataset: 1000 × scene + instance + 1."""
     return MAX_ROCKS * scene + instance + 1
 
 
 def camera_table(camera: RenderCamera, depth_scale: float) -> Table:
-    """Return camera.json; `distortion` only where the lens has one."""
+    """Table of camera.json; `distortion` only where the lens has one."""
     lens = {} if camera.distortion is None else {"distortion": camera.distortion}
     return {
         **lens,
@@ -43,7 +43,7 @@ def camera_table(camera: RenderCamera, depth_scale: float) -> Table:
 
 
 def scene_camera(scene: SceneModel, depth_scale: float) -> Table:
-    """Return scene_camera.json: each view's K and pose, millimetres."""
+    """Table of scene_camera.json: each view's K and pose, millimetres."""
     return {
         str(view): {
             "cam_K": scene.camera.matrix().ravel(),
@@ -56,7 +56,7 @@ def scene_camera(scene: SceneModel, depth_scale: float) -> Table:
 
 
 def scene_gt(scene: SceneModel, index: int) -> Table:
-    """Return scene_gt.json: each rock's pose in each view, millimetres."""
+    """Table of scene_gt.json: each rock's pose in each view, millimetres."""
     return {
         str(view): [
             {
@@ -73,7 +73,7 @@ def scene_gt(scene: SceneModel, index: int) -> Table:
 def scene_gt_info(
     scene: SceneModel, views: Sequence[Sight], valid: Sequence[NDArray[np.bool_]]
 ) -> Table:
-    """Return scene_gt_info.json: boxes and pixel counts; an unseen rock's boxes are −1.
+    """Table of scene_gt_info.json: boxes and pixel counts; an unseen rock's boxes are −1.
 
     A silhouette counts beyond the frame as well, as far as BOP's canvas of three frames by three.
     `valid` tells for each view where the depth image holds a depth.
@@ -112,7 +112,7 @@ def _info(
 
 
 def scene_gt_coco(scene: SceneModel, index: int, views: Sequence[Sight]) -> Table:
-    """Return scene_gt_coco.json: what is visible, in run lengths down the columns.
+    """Table of scene_gt_coco.json: visible masks in run lengths down the columns.
 
     A rock that is not seen has no annotation.
     """
@@ -154,7 +154,7 @@ def scene_gt_coco(scene: SceneModel, index: int, views: Sequence[Sight]) -> Tabl
 
 
 def model_info(mesh: Mesh) -> Table:
-    """Return BOP's entry in models_info.json: diameter, least corner and size, millimetres."""
+    """BOP's entry in models_info.json: diameter, least corner and size, millimetres."""
     low, high = 1000.0 * mesh.vertices_m.min(axis=0), 1000.0 * mesh.vertices_m.max(axis=0)
     table: Table = {"diameter": 1000.0 * diameter_m(mesh.vertices_m)}
     for axis, name in enumerate("xyz"):
@@ -164,7 +164,7 @@ def model_info(mesh: Mesh) -> Table:
 
 
 def diameter_m(points_m: Floats) -> float:
-    """Return the greatest distance between two points, exactly.
+    """Diameter of points: the greatest distance between two, exactly.
 
     A point nearer to the middle than d − R, with d some distance in the set and R the greatest
     from the middle, can be no end of the diameter: it is dropped before all pairs are compared.
@@ -180,7 +180,7 @@ def diameter_m(points_m: Floats) -> float:
 
 
 def run_lengths(mask: NDArray[np.bool_]) -> list[int]:
-    """Return COCO's uncompressed run lengths: down the columns, the first run of zeros."""
+    """COCO's uncompressed run lengths: down the columns, the first run of zeros."""
     columns = np.flatnonzero(mask.any(axis=0))
     if not len(columns):
         return [mask.size]
@@ -194,7 +194,7 @@ def run_lengths(mask: NDArray[np.bool_]) -> list[int]:
 
 
 def _bop_box(*windows: Window | None) -> list[int]:
-    """Return left, top, width, height as BOP's tools count: from the first pixel to the last."""
+    """BOP box: left, top, width, height as BOP's tools count: from the first pixel to the last."""
     window = united([one for one in windows if one is not None])
     if window is None:
         return _NOWHERE
@@ -203,7 +203,7 @@ def _bop_box(*windows: Window | None) -> list[int]:
 
 
 def _coco_box(mask: NDArray[np.bool_]) -> list[int]:
-    """Return left, top, width, height of a mask that is not empty, as COCO counts: in pixels."""
+    """COCO box: left, top, width, height of a mask that is not empty, as COCO counts: in pixels."""
     rows, cols = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
     return [
         int(cols[0]),
@@ -214,7 +214,7 @@ def _coco_box(mask: NDArray[np.bool_]) -> list[int]:
 
 
 def _window(mask: NDArray[np.bool_]) -> Window | None:
-    """Return the window that a mask fills, None where it is empty."""
+    """Window that a mask fills, None where it is empty."""
     if not mask.any():
         return None
     left, top, width, height = _coco_box(mask)

@@ -1,4 +1,4 @@
-"""The parts of silhouettes beyond the frame, which BOP counts on a canvas three frames wide."""
+"""Silhouettes beyond the frame, counted on the canvas of the BOP tools: three frames wide."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -22,14 +22,14 @@ _NEAR_PX = 1e-3  # a ray that the lens does not put back on its pixel this near 
 
 @dataclass(frozen=True)
 class Beyond:
-    """What of a silhouette lies beyond the frame; without a pixel there is no window."""
+    """Part of a silhouette beyond the frame; without a pixel there is no window."""
 
     count_px: int
     window: Window | None
 
 
 class Canvas:
-    """Nine frames, the camera's in their middle; a rock's rays are set up when first asked for."""
+    """Canvas of nine frames, the camera's in the middle; a rock is set up when first asked for."""
 
     def __init__(self, scene: SceneModel) -> None:
         self._camera = scene.camera
@@ -37,7 +37,7 @@ class Canvas:
         self._surfaces: dict[int, EmbreeScene] = {}
 
     def beyond(self, instance: int, pose: Pose, box_px: Floats) -> Beyond:
-        """Return what lies beyond the frame of the silhouette of one rock, seen as if alone.
+        """Part of one rock's silhouette beyond the frame, as if the rock were alone.
 
         `box_px`, (4,), holds its projection: left, top, right, bottom; NaN where it is not known.
         """
@@ -55,12 +55,12 @@ class Canvas:
         return Beyond(count_px, united(windows))
 
     def _behind(self, instance: int, pose: Pose) -> bool:
-        """Tell whether a rock lies wholly behind the camera, where no ray goes."""
+        """Whether a rock lies wholly behind the camera, where no ray goes."""
         points_m = pose.camera_points_m(self._meshes[instance].vertices_m)
         return bool(points_m[:, 2].max() <= 0)
 
     def _hit(self, instance: int, pose: Pose, window: Window) -> NDArray[np.bool_]:
-        """Tell which pixels of a window the rock covers at their centres, (rows, columns)."""
+        """Mask of a window's pixels whose centres the rock covers, (rows, columns)."""
         if instance not in self._surfaces:
             self._surfaces[instance] = _surface(self._meshes[instance])
         rays, known = _rays(self._camera, pose, window)
@@ -70,7 +70,7 @@ class Canvas:
 
 
 def united(windows: list[Window]) -> Window | None:
-    """Return the smallest window that holds all, None without any."""
+    """Smallest window that holds all, None without any."""
     if not windows:
         return None
     left, top = (min(window[side] for window in windows) for side in (0, 1))
@@ -79,7 +79,7 @@ def united(windows: list[Window]) -> Window | None:
 
 
 def _strips(camera: RenderCamera, box_px: Floats) -> Iterator[Window]:
-    """Yield the windows beyond the frame that a box touches, each few enough pixels at once."""
+    """Windows beyond the frame that a box touches, each few enough pixels at once."""
     width, height = camera.width, camera.height
     low, high = np.array([-width, -height]), np.array([2 * width, 2 * height])
     if not np.isnan(box_px).any():
@@ -109,7 +109,7 @@ def _surface(mesh: Mesh) -> EmbreeScene:
 def _rays(
     camera: RenderCamera, pose: Pose, window: Window
 ) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
-    """Return rays through a window's pixel centres in the world, (n, 3), and which are known.
+    """Rays through a window's pixel centres in the world, (n, 3), and which are known.
 
     A lens's model may not reach so far out: its inverse is checked.
     """

@@ -1,4 +1,4 @@
-"""A contact sheet: what a dataset looks like, in one picture."""
+"""Contact sheet of a dataset."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -35,7 +35,7 @@ def write_contact_sheet(path: Path, rows: Sequence[Bytes]) -> None:
 
 
 def sheet_row(folder: Path) -> Bytes:
-    """Return one scene's row, (rows, cols, 3): image and depth of the first views.
+    """Contact sheet's row of one scene, (rows, cols, 3): image and depth of the first views.
 
     Rocks are tinted, each with a colour of its own; depth runs from yellow, near, to violet, far,
     over each picture's own range, white where nothing was measured.
@@ -59,7 +59,7 @@ def _read(path: Path) -> Image:
 
 
 def _tinted(image: Image, labels: Image) -> Bytes:
-    """Return a small picture (rows, cols, 3) with each rock in a colour of its own."""
+    """Small picture (rows, cols, 3) with each rock in a colour of its own."""
     grey = image if image.dtype == np.uint8 else (image >> 8).astype(np.uint8)
     small = cv2.cvtColor(_shrunk(grey, cv2.INTER_AREA), cv2.COLOR_GRAY2BGR)
     rock = _shrunk(labels.astype(np.uint16), cv2.INTER_NEAREST)
@@ -71,7 +71,7 @@ def _tinted(image: Image, labels: Image) -> Bytes:
 
 
 def _coloured(depth: Image) -> Bytes:
-    """Return depth as a small picture in colours, (rows, cols, 3)."""
+    """Depth as a small picture in colours, (rows, cols, 3)."""
     small = _shrunk(depth.astype(np.float32), cv2.INTER_NEAREST)
     known = small > 0
     if not known.any():

@@ -1,4 +1,4 @@
-"""Writing files with bytes that depend on their content alone."""
+"""Deterministic files: bytes that depend on the content alone."""
 
 import hashlib
 import json
@@ -38,10 +38,10 @@ def write_json(path: Path, value: Json) -> None:
 
 
 def read_json(path: Path) -> Any:
-    """Return a JSON file's content.
+    """JSON file's content.
 
     Raises:
-        InputError: the file is missing or is no JSON.
+        SpecError: the file is missing or is no JSON.
     """
     try:
         return json.loads(path.read_text(encoding="utf-8"))
@@ -67,7 +67,7 @@ def write_ply_mm(path: Path, mesh: Mesh) -> None:
 
 
 def plain(value: Any) -> Any:
-    """Return a value as JSON's own types, its numbers rounded."""
+    """Value as JSON's own types, its numbers rounded."""
     if isinstance(value, np.ndarray | np.generic):
         return plain(value.tolist())
     if isinstance(value, Mapping):
@@ -80,5 +80,5 @@ def plain(value: Any) -> Any:
 
 
 def sha256(path: Path) -> str:
-    """Return a file's SHA-256 in hexadecimal."""
+    """File's SHA-256 in hexadecimal."""
     return hashlib.sha256(path.read_bytes()).hexdigest()

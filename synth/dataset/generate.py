@@ -39,7 +39,7 @@ def generate_dataset(
     is whole leaves nothing behind.
 
     Raises:
-        InputError: `out` is a file, a folder of something else or the dataset of another spec;
+        SpecError: `out` is a file, a folder of something else or the dataset of another spec;
             the rocks do not fit on the ground, or the files not on the disk.
         MissingBackendError: the machine lacks the renderer.
     """
@@ -71,7 +71,7 @@ def generate_dataset(
 
 
 class _Progress:
-    """A bar on a terminal, a line for each scene elsewhere."""
+    """Progress: a bar on a terminal, a line for each scene elsewhere."""
 
     def __init__(self, scenes: int, missing: int, *, show: bool) -> None:
         self._lines = show and not sys.stderr.isatty()
@@ -150,7 +150,7 @@ def _claim(spec: SceneSpec, out: Path, renderer: RendererName) -> RendererName:
 
 
 def _leaves(table: object, prefix: str = "") -> dict[str, object]:
-    """Return the values of nested tables under their dotted names."""
+    """Values of nested tables under their dotted names."""
     if not isinstance(table, dict):
         return {prefix: table}
     leaves: dict[str, object] = {}

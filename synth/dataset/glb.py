@@ -1,4 +1,4 @@
-"""A scene as one GLB file, to turn about in any viewer."""
+"""GLB export of a scene."""
 
 from dataclasses import replace
 
@@ -17,7 +17,7 @@ _PLAIN_FACES = 2  # of a ground that is a plane through the origin
 
 
 def scene_glb(stage: Stage) -> bytes:
-    """Return a GLB: nodes `rock_IIIIII` and `ground_IIIIII`, metres, y up, albedo as colour.
+    """GLB: nodes `rock_IIIIII` and `ground_IIIIII`, metres, y up, albedo as colour.
 
     The ground is cut to a square round the rocks; a plain of two triangles is drawn anew.
     """
@@ -38,7 +38,7 @@ def _reach_m(stage: Stage) -> float:
 
 
 def _near(body: Body, reach_m: float) -> Body:
-    """Return the part of a body of the ground within a square of half side `reach_m`."""
+    """Part of a body of the ground within a square of half side `reach_m`."""
     if len(body.faces) == _PLAIN_FACES:
         return replace(body, vertices_m=body.vertices_m * (reach_m / np.abs(body.vertices_m).max()))
     inside = np.asarray(np.abs(body.vertices_m[:, :2]).max(axis=1) <= reach_m)

@@ -1,4 +1,4 @@
-"""Whether a finished dataset is whole: the files of its manifest that are no longer there."""
+"""Dataset integrity check: files of the manifest that are missing."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,12 +11,12 @@ _DIGITS = 6  # of the numbers in file names
 
 
 def lost_files(out: Path) -> list[str]:
-    """Return the paths that the manifest names and the folder lacks, in rising order.
+    """Paths that the manifest names and the folder lacks, in rising order.
 
     Without a manifest the dataset is not finished, and nothing is lost.
 
     Raises:
-        InputError: the manifest lacks its table of files.
+        SpecError: the manifest lacks its table of files.
     """
     manifest = out / "manifest.json"
     if not manifest.is_file():
@@ -28,7 +28,7 @@ def lost_files(out: Path) -> list[str]:
 
 
 def scenes_of(names: Sequence[str]) -> list[int]:
-    """Return the scenes that files of a dataset belong to, in rising order.
+    """Scenes that files of a dataset belong to, in rising order.
 
     A path begins with its scene's number, or is the model obj_NNNNNN of a rock whose number is
     1000 × scene + instance + 1; the other files are the whole dataset's.

@@ -1,4 +1,4 @@
-"""Making a dataset again from its manifest, and proving by hash that it is the same."""
+"""Dataset replay: generation from a manifest, with every file's hash compared."""
 
 from pathlib import Path
 from typing import Any
@@ -14,10 +14,10 @@ from synth.spec import SceneSpec, convert_spec
 def replay_dataset(
     manifest_path: Path, out: Path, *, jobs: int = 1, show_progress: bool = False
 ) -> str:
-    """Make the dataset of a manifest anew in a folder; return a line that says it is the same.
+    """Replay of a manifest's dataset in a folder; a line that says that the files are equal.
 
     Raises:
-        InputError: the manifest cannot be read, or `out` holds something else.
+        SpecError: the manifest cannot be read, or `out` holds something else.
         MissingBackendError: the machine lacks the manifest's renderer.
         ReplayError: a file differs; the message names the first in the order of paths.
     """
@@ -41,7 +41,7 @@ def replay_dataset(
 
 
 def _spec(manifest: Any, path: Path) -> SceneSpec:
-    """Return the manifest's spec, or complain of what the manifest lacks."""
+    """Manifest's spec, checked."""
     if not isinstance(manifest, dict):
         raise SpecError(f"{path}: expected a manifest, found {type(manifest).__name__}")
     for key in ("spec", "backend", "files"):
@@ -60,7 +60,7 @@ def _spec(manifest: Any, path: Path) -> SceneSpec:
 
 
 def _changed_versions(manifest: dict[str, Any], ours: dict[str, Any]) -> str:
-    """Return what may explain a difference: packages of another version."""
+    """Packages of another version, which may explain a difference."""
     then, now = manifest.get("versions"), ours["versions"]
     if not isinstance(then, dict):
         return ""

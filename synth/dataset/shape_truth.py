@@ -1,4 +1,4 @@
-"""scene_gt_shape.json: what is true of each rock, and of its outline in each view."""
+"""Shape truth (scene_gt_shape.json): of each rock, and of its outline in each view."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -19,7 +19,7 @@ RESOLVABLE_PX = 3.0  # least radius of the corners in the image from which round
 
 
 def scene_gt_shape(scene: SceneModel, index: int, views: Sequence[Sight]) -> Table:
-    """Return scene_gt_shape.json: each rock's truth, and how each view sees it."""
+    """Table of scene_gt_shape.json: each rock's truth, and how each view sees it."""
     forms = [placed.rock.form or mesh_form(placed.rock.mesh) for placed in scene.rocks]
     return {
         "rocks": [_rock(placed, index, instance) for instance, placed in enumerate(scene.rocks)],
@@ -79,7 +79,7 @@ def _visibility(camera: RenderCamera, view: Sight, instance: int) -> Table:
 
 
 def _scale(camera: RenderCamera, pose: Pose, placed: PlacedRock) -> Table:
-    """Return the size of a pixel at the centroid, and whether the corners' radius fills three."""
+    """Size of a pixel at the centroid, and whether the corners' radius fills three."""
     depth_m = float(pose.camera_points_m(placed.position_m)[2])
     pixel_m = depth_m / np.sqrt(camera.fx * camera.fy)
     radius_m = placed.rock.truth.radius_m
@@ -91,7 +91,7 @@ def _scale(camera: RenderCamera, pose: Pose, placed: PlacedRock) -> Table:
 
 
 def _outline(pose: Pose, placed: PlacedRock, form: Form) -> Table:
-    """Return the whole rock's outline under rays parallel to the one to its centroid."""
+    """Whole rock's outline under rays parallel to the one to its centroid."""
     ray = placed.model_to_world.T @ (placed.position_m - pose.position_m())
     outline = form.outline(plane_across(ray))
     return {

@@ -28,7 +28,7 @@ def registrations() -> Registrations:
     """Registered sensors and rock families, for worker processes.
 
     Raises:
-        InputError: a registered record is in no module that the processes can import.
+        SpecError: a registered record is in no module that the processes can import.
     """
     return SENSORS.dump(), FAMILIES.dump()
 
@@ -43,7 +43,7 @@ def worker_pool(jobs: int) -> Iterator[ProcessPoolExecutor]:
     rock families that are registered here.
 
     Raises:
-        InputError: a registered record is in no module that the processes can import.
+        SpecError: a registered record is in no module that the processes can import.
     """
     before = {name: os.environ.get(name) for name in ONE_THREAD}
     os.environ.update(ONE_THREAD)

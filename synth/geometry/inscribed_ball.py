@@ -1,4 +1,4 @@
-"""The largest ball inside a convex body given by half-spaces, in any dimension."""
+"""Largest inscribed ball of a convex body given by half-spaces, in any dimension."""
 
 from functools import lru_cache
 from itertools import combinations
@@ -15,7 +15,7 @@ _SINGULAR = 1e-9
 
 
 def largest_ball(normals: Floats, offsets_m: Floats) -> tuple[Floats, float]:
-    """Return the centre (d,) and the radius of a largest ball in {x : n·x <= h}, n of length 1.
+    """Largest ball, its centre (d,) and radius, in {x : n·x <= h}, n of length 1.
 
     It is the linear programme max ρ under n·x + ρ <= h, whose optimum is a vertex: some d + 1
     faces touch the ball. With few faces all such sets are solved at once and the best that
@@ -38,7 +38,7 @@ def largest_ball(normals: Floats, offsets_m: Floats) -> tuple[Floats, float]:
 
 @lru_cache(maxsize=32)
 def _sets(faces: int, size: int) -> NDArray[np.int64] | None:
-    """Return all sets of `size` faces, (k, size), or None if they are too many."""
+    """All sets of `size` faces, (k, size), or None if they are too many."""
     count = 1.0
     for step in range(size):
         count *= (faces - step) / (step + 1)

@@ -11,7 +11,7 @@ Ints = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
-    """A closed surface; faces run anticlockwise seen from outside."""
+    """Closed triangle mesh; faces run anticlockwise seen from outside."""
 
     vertices_m: Floats  # (n, 3)
     faces: Ints  # (m, 3), indices of vertices
@@ -23,7 +23,7 @@ class Mesh:
             array.setflags(write=False)
 
     def moved(self, rotation: Floats, translation_m: Floats) -> "Mesh":
-        """Return the mesh turned by a rotation (3, 3), then shifted by a translation (3,)."""
+        """Mesh turned by a rotation (3, 3), then shifted by a translation (3,)."""
         return Mesh(
             vertices_m=self.vertices_m @ rotation.T + translation_m,
             faces=self.faces.copy(),
@@ -32,26 +32,26 @@ class Mesh:
 
 
 def volume_m3(mesh: Mesh) -> float:
-    """Return the enclosed volume: the sum of the signed tetrahedra on the origin (Gauss)."""
+    """Enclosed volume: the sum of the signed tetrahedra on the origin (Gauss)."""
     first, second, third = _corners_m(mesh)
     return float(np.einsum("ij,ij->", first, np.cross(second, third)) / 6.0)
 
 
 def area_m2(mesh: Mesh) -> float:
-    """Return the surface's area."""
+    """Surface's area."""
     first, second, third = _corners_m(mesh)
     return float(np.linalg.norm(np.cross(second - first, third - first), axis=1).sum() / 2.0)
 
 
 def centroid_m(mesh: Mesh) -> Floats:
-    """Return the centroid of the enclosed volume, (3,)."""
+    """Centroid of the enclosed volume, (3,)."""
     corners = _corners_m(mesh)
     six_volumes = np.einsum("ij,ij->i", corners[0], np.cross(corners[1], corners[2]))
     return np.asarray(six_volumes @ corners.sum(axis=0) / (4.0 * six_volumes.sum()))
 
 
 def covariance_m2(mesh: Mesh) -> Floats:
-    """Return the second central moments of the enclosed volume over its volume, (3, 3).
+    """Second central moments of the enclosed volume over its volume, (3, 3).
 
     Over the tetrahedron of the origin and p₁, p₂, p₃ with volume v,
     ∫ x xᵀ = v/20 (Σ pᵢpᵢᵀ + (Σ pᵢ)(Σ pᵢ)ᵀ).
@@ -66,7 +66,7 @@ def covariance_m2(mesh: Mesh) -> Floats:
 
 
 def vertex_areas_m2(mesh: Mesh) -> Floats:
-    """Return each vertex's share of the area, (n,): a third of the faces round it."""
+    """Vertex areas, (n,): a third of the faces round it."""
     corners = _corners_m(mesh)
     areas = np.linalg.norm(np.cross(corners[1] - corners[0], corners[2] - corners[0]), axis=1)
     shares = np.repeat(areas / 6.0, 3)
@@ -75,7 +75,7 @@ def vertex_areas_m2(mesh: Mesh) -> Floats:
 
 
 def vertex_normals(vertices_m: Floats, faces: Ints) -> Floats:
-    """Return unit normals at the vertices, (n, 3): the area-weighted mean over the faces around."""
+    """Unit normals at the vertices, (n, 3): the area-weighted mean over the faces around."""
     corners = vertices_m[faces]
     doubled = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     flat, count = faces.T.ravel(), len(vertices_m)
@@ -86,5 +86,5 @@ def vertex_normals(vertices_m: Floats, faces: Ints) -> Floats:
 
 
 def _corners_m(mesh: Mesh) -> Floats:
-    """Return the faces' corners, (3, m, 3)."""
+    """Faces' corners, (3, m, 3)."""
     return np.asarray(mesh.vertices_m[mesh.faces].transpose(1, 0, 2))

@@ -1,4 +1,4 @@
-"""The smallest box round points."""
+"""Minimum-volume bounding box of points."""
 
 from dataclasses import dataclass
 
@@ -27,7 +27,7 @@ _TURNED = np.stack(
 
 @dataclass(frozen=True, eq=False)
 class Box:
-    """A box round points: its rows of axes match its half sides."""
+    """Bounding box: its rows of axes match its half sides."""
 
     axes: Floats  # (3, 3), a rotation; rows are the directions of the sides, longest first
     half_sides_m: Floats  # (3,), longest first
@@ -35,7 +35,7 @@ class Box:
 
 
 def smallest_box(points_m: Floats, *, margin_m: float = 0.0) -> Box:
-    """Return the box of least volume round points (n, 3), each thickened to a ball of the margin.
+    """Box of least volume round points (n, 3), each thickened to a ball of the margin.
 
     Sides flush with a facet of the convex hull, and the principal axes, are tried first; the best
     are refined by a search over rotations, since the optimum need not be flush with any facet
@@ -62,12 +62,12 @@ def smallest_box(points_m: Floats, *, margin_m: float = 0.0) -> Box:
 
 
 def nearby_box(points_m: Floats, *, margin_m: float = 0.0) -> Box:
-    """Return the box of least volume among those that are little turned from the axes."""
+    """Box of least volume among those that are little turned from the axes."""
     return _box(_refined(np.eye(3), points_m, margin_m)[1], points_m, margin_m)
 
 
 def _box(axes: Floats, points_m: Floats, margin_m: float) -> Box:
-    """Return the box along the given axes, its sides in falling order."""
+    """Box along the given axes, its sides in falling order."""
     along = axes @ points_m.T
     low, high = along.min(axis=-1), along.max(axis=-1)
     half_sides_m = (high - low) / 2.0 + margin_m
@@ -79,7 +79,7 @@ def _box(axes: Floats, points_m: Floats, margin_m: float) -> Box:
 
 
 def _thinned(corners_m: Floats) -> Floats:
-    """Return the points that are farthest along a few hundred directions, all of fewer points."""
+    """Points that are farthest along a few hundred directions, all of fewer points."""
     if len(corners_m) <= _COARSE:
         return corners_m
     farthest = np.argmax(spread_directions(_COARSE) @ corners_m.T, axis=1)
@@ -87,7 +87,7 @@ def _thinned(corners_m: Floats) -> Floats:
 
 
 def _starts(normals: Floats, corners_m: Floats, margin_m: float) -> Floats:
-    """Return the best turn about each normal, (k, 3, 3) rotations, smallest box first."""
+    """Best turn about each normal, (k, 3, 3) rotations, smallest box first."""
     normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
     second = np.cross(normals, np.eye(3)[np.argmin(np.abs(normals), axis=1)])
     second /= np.linalg.norm(second, axis=1, keepdims=True)
@@ -106,7 +106,7 @@ def _starts(normals: Floats, corners_m: Floats, margin_m: float) -> Floats:
 
 
 def spread_directions(count: int) -> Floats:
-    """Return unit vectors, (count, 3), evenly over the sphere (a Fibonacci lattice)."""
+    """Unit vectors, (count, 3), evenly over the sphere (a Fibonacci lattice)."""
     index = np.arange(count) + 0.5
     height = 1.0 - 2.0 * index / count
     azimuth_rad = np.pi * (1.0 + np.sqrt(5.0)) * index
@@ -117,7 +117,7 @@ def spread_directions(count: int) -> Floats:
 def _refined(
     axes: Floats, points_m: Floats, margin_m: float, *, least: float = np.inf
 ) -> tuple[float, Floats]:
-    """Return the least volume and its axes near the given ones, by a shrinking pattern search.
+    """Least volume and its axes near the given ones, by a shrinking pattern search.
 
     A search that cannot be expected to come below `least` any more is broken off.
 

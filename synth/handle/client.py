@@ -24,7 +24,7 @@ def call_in_worker(function: Callable[[*Ts], T], *arguments: *Ts, timeout_s: flo
     those that write datasets have, and the module search path of this one. None waits for ever.
 
     Raises:
-        InputError, MissingBackendError: as the function raises them.
+        SpecError, MissingBackendError: as the function raises them.
         RenderError: the process failed, died or took longer than the timeout.
     """
     request = pickle.dumps((registrations(), pickle.dumps((function, arguments))))

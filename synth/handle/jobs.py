@@ -24,7 +24,7 @@ Rows = list[dict[str, Any]]
 
 @dataclass(frozen=True, eq=False)
 class BuiltScene:
-    """A scene that is ready to be rendered, and the truth of its rocks."""
+    """Built scene, ready to be rendered, and the truth of its rocks."""
 
     model: bytes  # pickled, for further jobs
     rocks: Rows  # as in scene_gt_shape.json
@@ -32,7 +32,7 @@ class BuiltScene:
 
 @dataclass(frozen=True, eq=False)
 class ViewParts:
-    """What the dataset would hold of one view."""
+    """Contents of the dataset for one view."""
 
     image: Image
     depth_m: DepthImage
@@ -48,7 +48,7 @@ def build(spec: SceneSpec, index: int) -> BuiltScene:
     """Scene `index` of a spec, without rendering anything.
 
     Raises:
-        InputError: the rocks do not fit on the ground.
+        SpecError: the rocks do not fit on the ground.
     """
     model = build_scene(spec, index)
     rocks = plain(scene_gt_shape(replace(model, poses=()), index, [])["rocks"])
@@ -59,7 +59,7 @@ def render(spec: SceneSpec, index: int, number: int, model: bytes) -> ViewParts:
     """View `number` of a built scene, each array as a reader of the dataset has it.
 
     Raises:
-        InputError: the sensor cannot be used with the spec's camera.
+        SpecError: the sensor cannot be used with the spec's camera.
         MissingBackendError: the machine lacks the renderer.
     """
     sensor_of(spec)

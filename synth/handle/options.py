@@ -47,7 +47,7 @@ def spec_of(source: SpecSource | None, options: Mapping[str, Any]) -> SceneSpec:
     """Specification of a source, the default one if it is None, with options laid over it.
 
     Raises:
-        InputError: an option that does not exist, or a key or value that is not allowed.
+        SpecError: an option that does not exist, or a key or value that is not allowed.
     """
     where = "make_scene"
     for name in options:
@@ -62,7 +62,7 @@ def with_noise(spec: SceneSpec, noise: str | Table | None) -> SceneSpec:
     """Specification with another sensor: its name, or keys of the table [noise].
 
     Raises:
-        InputError: no such sensor, or a key or value that is not allowed.
+        SpecError: no such sensor, or a key or value that is not allowed.
     """
     if noise is None:
         return spec

@@ -34,7 +34,7 @@ class Scene:
         """Take a specification; see `make_scene`.
 
         Raises:
-            InputError: no scene of the dataset has that index.
+            SpecError: no scene of the dataset has that index.
         """
         if not 0 <= index < spec.scenes:
             raise SpecError(f"index: expected 0 to {spec.scenes - 1}, found {index}")
@@ -50,7 +50,7 @@ class Scene:
         """The camera of every view.
 
         Raises:
-            InputError: the lens folds the image inside the frame.
+            SpecError: the lens folds the image inside the frame.
         """
         return camera_of(self.spec.camera)
 
@@ -59,7 +59,7 @@ class Scene:
         """Truth of the rocks themselves, one row each; `id` is the value in label images.
 
         Raises:
-            InputError: the rocks do not fit on the ground.
+            SpecError: the rocks do not fit on the ground.
         """
         return truth_table(self._built.rocks)
 
@@ -76,7 +76,7 @@ class Scene:
         is registered) or is a table with keys of [noise].
 
         Raises:
-            InputError: no such view or sensor, or the rocks do not fit on the ground.
+            SpecError: no such view or sensor, or the rocks do not fit on the ground.
             MissingBackendError: the machine lacks the renderer.
             RenderError: the rendering process failed, died or took longer than `timeout_s`.
         """
@@ -103,7 +103,7 @@ class Scene:
         """Write the dataset of the specification, all its scenes, into a folder.
 
         Raises:
-            InputError: the folder holds something else, or the rocks do not fit on the ground.
+            SpecError: the folder holds something else, or the rocks do not fit on the ground.
             MissingBackendError: the machine lacks the renderer.
             RenderError: the writing process failed or died.
         """
@@ -114,7 +114,7 @@ class Scene:
         return call_in_worker(build, self.spec, self.index, timeout_s=BUILD_TIMEOUT_S)
 
     def __repr__(self) -> str:
-        """Return what the scene is made of."""
+        """Return rocks, views, camera, noise and seed."""
         spec = self.spec
         counted = spec.population.kind == "count"
         rocks = f"{spec.rocks.count} rocks" if counted else f"population {spec.population.kind!r}"

@@ -32,7 +32,7 @@ class DrawnShapes:
         """Write image.png, image.svg, labels.png and truth.csv into a folder.
 
         Raises:
-            InputError: a folder that is a file or holds other files.
+            SpecError: a folder that is a file or holds other files.
         """
         write_series(
             self.series,

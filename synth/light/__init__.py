@@ -1,4 +1,4 @@
-"""Light: what the camera sees of a scene under the sun and the sky."""
+"""Light: shading of a scene under sun and sky."""
 
 from synth.light.body import Body
 from synth.light.light_scene import light_scene

@@ -1,4 +1,4 @@
-"""Albedo: how much light surfaces give back, with their texture and the dust on them."""
+"""Albedo of surfaces, with texture and dust."""
 
 from collections.abc import Callable, Sequence
 
@@ -14,7 +14,7 @@ _MAX_PARTS = 4  # of a slanted footprint
 
 
 class Albedo:
-    """The paint on a scene's bodies; it moves and turns with the rocks."""
+    """Albedo of a scene's bodies; it moves and turns with the rocks."""
 
     def __init__(self, rocks: Sequence[Body], ground: Sequence[Body], surface: SurfaceSpec) -> None:
         bodies = [*rocks, *ground]
@@ -24,7 +24,7 @@ class Albedo:
         self._origins_m = np.stack([body.position_m for body in bodies]).astype(np.float32)
 
     def at(self, samples: Samples) -> Singles:
-        """Return the albedo at samples, (n,): the body's, its texture, and dust on what faces up.
+        """Albedo at samples, (n,): the body's, its texture, and dust on what faces up.
 
         ρ = ρ_body (1 + contrast × texture); dust of the ground's albedo covers the share
         dust × (n_z − 0.4)/0.6 of a rock, between 0 and 1.
@@ -41,7 +41,7 @@ class Albedo:
         return np.asarray(albedo * np.maximum(1.0 + np.float32(surface.contrast) * texture, 0.1))
 
     def _texture(self, samples: Samples) -> Singles:
-        """Return the texture at samples, (n,), averaged over their footprints.
+        """Texture at samples, (n,), averaged over their footprints.
 
         A slanted surface is longer under a pixel than it is broad. Its length is cut into up to
         four parts, each the size of its geometric mean side: one part alone would lack what is
@@ -88,7 +88,7 @@ def _mean_along(
     lengths_m: Singles,
     parts: NDArray[np.int8],
 ) -> Singles:
-    """Return the mean of what `look` sees in the middles of the parts of lengths, (n,).
+    """Mean of what `look` sees in the middles of the parts of lengths, (n,).
 
     points_m (n, k) are the lengths' middles, lengths_m (n, k) their vectors; `look` takes places
     and the numbers of the samples they belong to.

@@ -1,4 +1,4 @@
-"""A body: one surface of a scene, as rays meet it and the painter sees it."""
+"""Body: one surface of a scene, as rays and the painter see it."""
 
 from dataclasses import dataclass
 
@@ -7,7 +7,7 @@ from synth.geometry.mesh import Floats, Ints
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """A surface in the world and what its albedo is painted on."""
+    """Surface in the world, with the frame that its albedo is defined in."""
 
     vertices_m: Floats  # (n, 3)
     faces: Ints  # (m, 3)

@@ -1,4 +1,4 @@
-"""Setting the stage: a scene's bodies under a sun and a sky."""
+"""Lighting of a scene: its bodies under a sun and a sky."""
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from synth.spec.view import SunSpec
 
 
 def light_scene(scene: SceneModel, sun: SunSpec, surface: SurfaceSpec | None = None) -> Stage:
-    """Return the scene's surfaces with a painter that knows their light."""
+    """Scene's surfaces with a painter that knows their light."""
     surface = SurfaceSpec() if surface is None else surface
     rocks = tuple(
         Body(

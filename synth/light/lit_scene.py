@@ -1,4 +1,4 @@
-"""The stage: all surfaces of a scene as triangles, ready to be measured and painted."""
+"""Lit scene: all its surfaces as triangles, ready to be rendered and shaded."""
 
 from dataclasses import dataclass
 
@@ -9,7 +9,7 @@ from synth.light.painter import Painter
 
 @dataclass(frozen=True, eq=False)
 class Stage:
-    """Rocks have labels, the ground's bodies have none; the painter makes the image."""
+    """Stage: rocks have labels, the ground's bodies have none; the painter makes the image."""
 
     rocks: tuple[Body, ...]
     ground: tuple[Body, ...]

@@ -1,4 +1,4 @@
-"""The painter: one image from the depth and labels of any backend, by deferred shading.
+"""Deferred shading: one image from the depth and labels of any backend.
 
 A backend tells what each pixel shows and how far it is; the light there is worked out here, once
 for all backends, so their images differ no more than their geometry does.
@@ -31,7 +31,7 @@ _AT_ONCE = 1 << 17  # samples; eight times as many leave the cache and take long
 
 
 class Painter:
-    """The light on a scene's bodies."""
+    """Deferred shading of a scene's bodies."""
 
     def __init__(
         self,
@@ -62,7 +62,7 @@ class Painter:
         *,
         supersample: int,
     ) -> Singles:
-        """Return the brightness, (rows, cols), 1 for white; what is brighter is more.
+        """Brightness, (rows, cols), 1 for white; what is brighter is more.
 
         Each pixel is shaded at its centre, its texture averaged over it. Where the light jumps,
         at outlines, shadows and edges, a pixel is the mean of supersample² samples instead.
@@ -90,7 +90,7 @@ class Painter:
         depth_m: Floats,
         first_row: int,
     ) -> tuple[Singles, Singles]:
-        """Return the light and the brightness of whole rows, sampled at the pixels' centres."""
+        """Light and the brightness of whole rows, sampled at the pixels' centres."""
         rows = np.arange(first_row, first_row + len(depth_m), dtype=np.float32)[:, None]
         columns = np.arange(camera.width, dtype=np.float32)[None, :]
         rays = directions(camera, pose, columns, rows).reshape(-1, 3)
@@ -124,7 +124,7 @@ class Painter:
         return np.asarray(np.abs(points_m @ self._plane) < _ON_PLANE * depth)
 
     def _refined(self, camera: RenderCamera, pose: Pose, pixels: Indices, factor: int) -> Singles:
-        """Return the brightness of single pixels, each the mean of factor² samples."""
+        """Brightness of single pixels, each the mean of factor² samples."""
         rows, columns = np.divmod(pixels, camera.width)
         offsets = (np.arange(factor, dtype=np.float32) + 0.5) / factor - 0.5
         down, across = (offset.ravel() for offset in np.meshgrid(offsets, offsets, indexing="ij"))
@@ -141,7 +141,7 @@ class Painter:
     def _seen(
         self, camera: RenderCamera, eye_m: Singles, rays: Singles, factor: int
     ) -> tuple[Singles, Singles]:
-        """Return the light and the brightness at the end of rays from the eye."""
+        """Light and the brightness at the end of rays from the eye."""
         bright = np.full(len(rays), np.float32(SKY))
         value = bright.copy()
         hits = self.surfaces.trace(np.broadcast_to(eye_m, rays.shape).copy(), rays)
@@ -162,7 +162,7 @@ class Painter:
         return bright, value
 
     def _shade(self, samples: Samples) -> tuple[Singles, Singles]:
-        """Return the light on samples and their brightness, each (n,)."""
+        """Light on samples and their brightness, each (n,)."""
         normals = samples.normals
         incidence = np.asarray(normals @ self._towards_sun)
         if self._sun.shadows:
@@ -177,7 +177,7 @@ class Painter:
 
 
 def _jumps(bright: Singles, labels: NDArray[np.uint16]) -> NDArray[np.bool_]:
-    """Tell which pixels differ clearly from a neighbour, in light or in label."""
+    """Mask of pixels that differ clearly from a neighbour, in light or in label."""
     box = np.ones((3, 3), dtype=np.uint8)
     spread = cv2.dilate(bright, box) - cv2.erode(bright, box)
     apart = cv2.dilate(labels, box) != cv2.erode(labels, box)

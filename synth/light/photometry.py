@@ -1,4 +1,4 @@
-"""Photometry: how bright a surface is under sun and sky, seen from a direction."""
+"""Photometry: brightness of a surface under sun and sky, seen from a direction."""
 
 from typing import Any
 
@@ -22,7 +22,7 @@ _USUAL_EMISSION = np.cos(
 
 
 def towards_sun(sun: SunSpec) -> Floats:
-    """Return the unit vector towards the sun, (3,)."""
+    """Unit vector towards the sun, (3,)."""
     azimuth_rad, elevation_rad = np.deg2rad(sun.azimuth_deg), np.deg2rad(sun.elevation_deg)
     level = np.cos(elevation_rad)
     return np.array(
@@ -31,12 +31,12 @@ def towards_sun(sun: SunSpec) -> Floats:
 
 
 def lunar_share(surface: SurfaceSpec) -> float:
-    """Return L, the share of Lommel–Seeliger in the surface's law."""
+    """Weight L of Lommel–Seeliger in the surface's law."""
     return {"lambert": 0.0, "lommel-seeliger": 1.0}.get(surface.law, surface.lunar_share)
 
 
 def reflected(incidence: Reals, emission: Reals, share: float) -> Reals:
-    """Return what a white surface gives back of the sun's light, (n,).
+    """Reflectance of a white surface for the sun's light, (n,).
 
     L · 2 μ₀/(μ₀ + μ) + (1 − L) μ₀ with the cosines of incidence μ₀ and emission μ, the
     lunar-Lambert law (McEwen 1991): L = 0 is Lambert's, L = 1 Lommel and Seeliger's. A surface
@@ -52,7 +52,7 @@ def reflected(incidence: Reals, emission: Reals, share: float) -> Reals:
 def light(
     upward: Singles, incidence: Singles, emission: Singles, sun: SunSpec, surface: SurfaceSpec
 ) -> Singles:
-    """Return the brightness of white surfaces, (n,), 1 for level ground in the sun.
+    """Brightness of white surfaces, (n,), 1 for level ground in the sun.
 
     k (1 − β(1 − n_z)/2) + (1 − k) R(μ₀, μ)/R(s_z, cos 80°): k the sky's share, β what the ground
     does not give back, `upward` n_z, R the law of `reflected`; μ₀ is 0 in shadow. s_z counts as

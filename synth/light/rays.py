@@ -1,4 +1,4 @@
-"""Rays: bodies as one Embree scene, and the straight lines from a camera through its pixels."""
+"""Ray casting: bodies as one Embree scene, and rays from a camera through its pixels."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ Indices = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class Hits:
-    """Where rays first meet a body."""
+    """First hits of rays on bodies."""
 
     body: Indices  # (n,), −1 where a ray meets none
     length: Singles  # (n,), in lengths of the ray's direction
@@ -27,7 +27,7 @@ class Hits:
 
 
 class Surfaces:
-    """Bodies that rays can meet. Embree counts in float32: keep scenes near the origin."""
+    """Surfaces for ray casting. Embree counts in float32: keep scenes near the origin."""
 
     def __init__(self, bodies: Sequence[Body]) -> None:
         self._scene = EmbreeScene()
@@ -42,7 +42,7 @@ class Surfaces:
         self._normals = np.concatenate([body.normals for body in bodies]).astype(np.float32)
 
     def trace(self, origins_m: Singles, directions: Singles) -> Hits:
-        """Return the first hits of rays, origins and directions (n, 3)."""
+        """First hits of rays, origins and directions (n, 3)."""
         found = self._scene.run(origins_m, directions, output=1)
         body = found["geomID"].astype(np.int64)
         body[found["primID"] < 0] = -1
@@ -50,20 +50,20 @@ class Surfaces:
         return Hits(body=body, length=found["tfar"], face=face, u=found["u"], v=found["v"])
 
     def normals_at(self, hits: Hits, chosen: Indices) -> Singles:
-        """Return the unit normals at some of the hits, (k, 3), linear between the corners'."""
+        """Unit normals at some of the hits, (k, 3), linear between the corners'."""
         corners = self._normals[self._corners[hits.face[chosen]]]
         u, v = hits.u[chosen, None], hits.v[chosen, None]
         mean = (1.0 - u - v) * corners[:, 0] + u * corners[:, 1] + v * corners[:, 2]
         return np.asarray(mean / np.linalg.norm(mean, axis=1, keepdims=True))
 
     def blocked(self, origins_m: Singles, direction: Singles) -> NDArray[np.bool_]:
-        """Tell which points (n, 3) have a body in one direction (3,)."""
+        """Mask of points (n, 3) that have a body in one direction (3,)."""
         rays = np.broadcast_to(direction, origins_m.shape).astype(np.float32)
         return np.asarray(self._scene.run(origins_m, rays, query="OCCLUDED") >= 0)
 
 
 def directions(camera: RenderCamera, pose: Pose, columns: Singles, rows: Singles) -> Singles:
-    """Return rays through pixels in the world, shaped as columns and rows broadcast, and 3.
+    """Rays through pixels in the world, shaped as columns and rows broadcast, and 3.
 
     Their z in the camera's frame is 1, so lengths along them are z-depths.
     """

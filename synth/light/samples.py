@@ -1,4 +1,4 @@
-"""Samples: points of surfaces as the camera sees them, and how large they are there."""
+"""Surface samples as the camera sees them, and the size of a pixel there."""
 
 from dataclasses import dataclass
 
@@ -13,7 +13,7 @@ Indices = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class Samples:
-    """Points of surfaces as the camera sees them."""
+    """Surface samples as the camera sees them."""
 
     points_m: Singles  # (n, 3), in the world
     normals: Singles  # (n, 3)
@@ -23,7 +23,7 @@ class Samples:
     stretch: Singles  # (n,), its length over its breadth, along the line of sight
 
     def lengths_m(self) -> Singles:
-        """Return the samples' lengths on the surface as vectors, (n, 3), away from the eye."""
+        """Samples' lengths on the surface as vectors, (n, 3), away from the eye."""
         sights, normals = self.directions, self.normals
         away = sights - np.einsum("ij,ij->i", sights, normals)[:, None] * normals
         size = np.sqrt(np.einsum("ij,ij->i", away, away))
@@ -32,10 +32,10 @@ class Samples:
 
 
 def width_m(camera: RenderCamera, depth: Singles) -> Singles:
-    """Return a pixel's breadth at a z-depth, (n,)."""
+    """Pixel's breadth at a z-depth, (n,)."""
     return np.asarray(depth / np.float32(np.sqrt(camera.fx * camera.fy)))
 
 
 def stretch(facing: Singles) -> Singles:
-    """Return how much longer than broad a pixel is on surfaces, (n,), at most 50 times."""
+    """Anisotropy of a pixel on surfaces, length over width, (n,), at most 50."""
     return np.asarray(1.0 / np.maximum(-facing, np.float32(0.02)))

@@ -1,4 +1,4 @@
-"""Where a shadow is possible: the bodies' outlines as the sun sees them."""
+"""Shadow candidates: the bodies' outlines as the sun sees them."""
 
 from collections.abc import Sequence
 
@@ -16,7 +16,7 @@ _MIN_CELL_M = 0.01
 
 
 class ShadowMap:
-    """A picture of rocks and small stones from the sun, a little too large.
+    """Mask of rocks and pebbles seen from the sun, a little too large.
 
     It spares the shadow rays of points that nothing can stand before. Without either, as on
     rippled ground, which shades itself, shadow is possible everywhere.
@@ -50,7 +50,7 @@ class ShadowMap:
         self._map = _grown(picture, 3)
 
     def possible(self, points_m: Singles) -> NDArray[np.bool_]:
-        """Tell which points (n, 3) may lie in shadow."""
+        """Mask of points (n, 3) that may lie in shadow."""
         if self._map is None:
             return np.ones(len(points_m), dtype=bool)
         cells = np.rint(points_m @ self._axes - self._corner).astype(np.int32)

@@ -20,7 +20,7 @@ _ROW = 1 << 12  # cv2.remap takes images, so long lists of places are folded int
 
 @cache
 def pyramid() -> tuple[Singles, ...]:
-    """Return the tile, (1025, 1025), mean 0 and variance 1, and its halvings down to 8 texels.
+    """Tile, (1025, 1025), mean 0 and variance 1, and its halvings down to 8 texels.
 
     Its spectrum falls as 1/f² between 64 and 2 texels, which is equal power in each octave: at
     whatever distance, the pixels find contrast at their own scale and at the coarser ones. The
@@ -40,7 +40,7 @@ def pyramid() -> tuple[Singles, ...]:
 
 
 def pattern(across_m: Singles, along_m: Singles, footprint_m: Singles) -> Singles:
-    """Return the texture at places of a plane, (n,), variance 1 where the pixels are small.
+    """Texture at places of a plane, (n,), variance 1 where the pixels are small.
 
     footprint_m (n,) is a pixel's side on the surface: what is finer is averaged out beforehand.
     """
@@ -58,7 +58,7 @@ def pattern(across_m: Singles, along_m: Singles, footprint_m: Singles) -> Single
 
 
 def wrapped(points_m: Singles, normals: Singles, footprint_m: Singles) -> Singles:
-    """Return the texture of a body at points (n, 3) of its own frame with normals (n, 3).
+    """Texture of a body at points (n, 3) of its own frame with normals (n, 3).
 
     Three planes' patterns are mixed by the normal's components to the fourth power, and divided
     by the root of the weights' squares, so that the variance holds where they mix.
@@ -76,7 +76,7 @@ def wrapped(points_m: Singles, normals: Singles, footprint_m: Singles) -> Single
 
 
 def _tile(u: Singles, v: Singles, level: NDArray[np.int8]) -> Singles:
-    """Return the tile at places in texels, each from its level."""
+    """Tile at places in texels, each from its level."""
     found = np.empty(len(u), dtype=np.float32)
     counts = np.bincount(level, minlength=_LEVELS)
     for number in np.flatnonzero(counts):
@@ -87,7 +87,7 @@ def _tile(u: Singles, v: Singles, level: NDArray[np.int8]) -> Singles:
 
 
 def _lookup(tile: Singles, u: Singles, v: Singles) -> Singles:
-    """Return the tile between its texels, (n,), repeated without end."""
+    """Tile between its texels, (n,), repeated without end."""
     size = np.float32(len(tile) - 1)
     rows = -(-len(u) // _ROW)
     maps = []

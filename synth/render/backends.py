@@ -1,4 +1,4 @@
-"""Which backend renders: probing what the machine has, and opening it."""
+"""Rendering backends: those that the machine has, and opening one."""
 
 import ctypes
 import ctypes.util
@@ -27,7 +27,7 @@ _EGL_PROBE_SECONDS = 180
 
 
 def choose_backend(name: RendererName) -> RendererName:
-    """Return the backend to use: the one named, or for `auto` the first that the machine has.
+    """Backend to use: the one named, or for `auto` the first that the machine has.
 
     Raises:
         MissingBackendError: the machine lacks it; the message names the package to install.
@@ -48,7 +48,7 @@ def choose_backend(name: RendererName) -> RendererName:
 
 @cache
 def has_backend(name: RendererName) -> bool:
-    """Tell whether the machine has a backend; found out once in a process."""
+    """Whether the machine has a backend; tested once in a process."""
     if name == "osmesa":
         return _has_osmesa()
     if name == "egl":
@@ -57,7 +57,7 @@ def has_backend(name: RendererName) -> bool:
 
 
 def open_renderer(backend: RendererName, stage: Stage, camera: RenderCamera) -> Renderer:
-    """Return a renderer of the stage; for OpenGL, this process is bound to the backend for good.
+    """Renderer of the stage; for OpenGL, this process is bound to the backend for good.
 
     OpenGL draws straight lines only: a camera whose lens distorts is ray cast by Embree, which
     every installation has, whatever the backend.

@@ -13,7 +13,7 @@ _RAYS_AT_ONCE = 1 << 18
 
 
 class EmbreeRenderer:
-    """A stage as an Embree scene, the one that the painter has already."""
+    """Embree renderer: a stage as the Embree scene that the painter has already."""
 
     def __init__(self, stage: Stage, camera: RenderCamera) -> None:
         self._stage, self._camera = stage, camera

@@ -24,7 +24,7 @@ _OPENGL_FROM_OPENCV = np.diag([1.0, -1.0, -1.0])  # y up and z backward
 
 
 class GLRenderer:
-    """A stage as a pyrender scene.
+    """OpenGL renderer: a stage as a pyrender scene.
 
     Labels and depth come from the segmentation pass, which is never multisampled; the painter
     does the rest. Each pass makes its own off-screen context and deletes it: contexts that live on
@@ -75,7 +75,7 @@ class GLRenderer:
 def gl_eye(
     camera: RenderCamera, pose: Pose, limits_m: tuple[float, float]
 ) -> tuple[pyrender.IntrinsicsCamera, NDArray[np.float64]]:
-    """Return pyrender's camera between two depths, and its place in the world, (4, 4)."""
+    """Pyrender's camera between two depths, and its place in the world, (4, 4)."""
     # pyrender's pixel centres are at +0.5.
     eye = pyrender.IntrinsicsCamera(
         camera.fx,

@@ -1,4 +1,4 @@
-"""What every backend does."""
+"""Interface of rendering backends."""
 
 from collections.abc import Sequence
 from typing import Protocol
@@ -10,12 +10,12 @@ from synth.camera.camera import Pose
 
 
 class Renderer(Protocol):
-    """A stage and a camera, ready to be seen from any pose."""
+    """Renderer of a stage with a camera, from any pose."""
 
     def measure(
         self, pose: Pose, limits_m: tuple[float, float], rocks: Sequence[int] | None
     ) -> tuple[NDArray[np.uint16], NDArray[np.float64]]:
-        """Return labels and z-depth, each (rows, cols), sampled at the pixels' centres.
+        """Labels and z-depth, each (rows, cols), sampled at the pixels' centres.
 
         Labels are 1 + the rock's index, 0 elsewhere; depth is in metres, NaN where nothing is.
         With `rocks` given, only those rocks exist, and no ground. `limits_m` holds all depths.

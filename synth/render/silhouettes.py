@@ -1,4 +1,4 @@
-"""Silhouettes: each rock's whole outline as a mask, kept no larger than the rock."""
+"""Silhouettes: each rock's complete outline as a mask, stored no larger than the rock."""
 
 from collections.abc import Iterable, Sequence
 from typing import overload
@@ -10,7 +10,7 @@ Mask = NDArray[np.bool_]
 
 
 class Silhouettes(Sequence[Mask]):
-    """Masks (rows, cols), made when asked for: of hundreds of rocks, most of each is empty."""
+    """Silhouette masks (rows, cols), made when asked for, since most of each is empty."""
 
     def __init__(self, labels: NDArray[np.uint16], boxes_px: Sequence[NDArray[np.float64]]) -> None:
         self._shape = labels.shape
@@ -39,7 +39,7 @@ class Silhouettes(Sequence[Mask]):
         return mask
 
     def _window(self, box_px: NDArray[np.float64]) -> tuple[slice, slice]:
-        """Return the part of the frame that holds a box; all of it where the box is unknown."""
+        """Part of the frame that holds a box; all of it where the box is unknown."""
         if np.isnan(box_px).any():
             return slice(None), slice(None)
         low = np.maximum(np.floor(box_px[:2]).astype(int) - 1, 0)

@@ -1,4 +1,4 @@
-"""One view: image, depth, labels and each rock's whole silhouette."""
+"""Rendering of one view: image, depth, labels and each rock's complete silhouette."""
 
 from dataclasses import dataclass
 
@@ -18,7 +18,7 @@ _SLACK = 0.05  # depth limits lie this far outside the scene's own, as a share
 
 @dataclass(frozen=True, eq=False)
 class Sight:
-    """Which rocks the camera sees from one station: all of a view that the tables need."""
+    """Rocks that the camera sees from one station: all of a view that the tables need."""
 
     labels: NDArray[np.uint16]  # (rows, cols), 1 + the rock's index, 0 elsewhere
     silhouettes: Silhouettes  # (rows, cols) each, as if the rock were alone
@@ -27,21 +27,21 @@ class Sight:
 
 @dataclass(frozen=True, eq=False)
 class RenderedView(Sight):
-    """What the camera sees from one station."""
+    """Rendered view from one station."""
 
     image: NDArray[np.uint8]  # (rows, cols)
     light: NDArray[np.float32]  # (rows, cols), before it is rounded and clipped, 1 for white
     depth_m: Floats  # (rows, cols), NaN where nothing is
 
     def sight(self) -> Sight:
-        """Return the view without its pictures, which take six times as much memory."""
+        """View without its pictures, which take six times as much memory."""
         return Sight(self.labels, self.silhouettes, self.boxes_px)
 
 
 def render_view(
     renderer: Renderer, stage: Stage, camera: RenderCamera, pose: Pose, *, supersample: int
 ) -> RenderedView:
-    """Return one view; at edges the image is the mean of supersample² samples in each pixel."""
+    """One view; at edges the image is the mean of supersample² samples in each pixel."""
     limits_m = depth_limits_m(stage, camera, pose)
     labels, depth_m = renderer.measure(pose, limits_m, None)
     light = stage.painter.paint(camera, pose, labels, depth_m, supersample=supersample)
@@ -63,13 +63,13 @@ def render_view(
 def render_light(
     renderer: Renderer, stage: Stage, camera: RenderCamera, pose: Pose, *, supersample: int
 ) -> NDArray[np.float32]:
-    """Return the light of one view alone, (rows, cols), 1 for white."""
+    """Light of one view alone, (rows, cols), 1 for white."""
     labels, depth_m = renderer.measure(pose, depth_limits_m(stage, camera, pose), None)
     return stage.painter.paint(camera, pose, labels, depth_m, supersample=supersample)
 
 
 def depth_limits_m(stage: Stage, camera: RenderCamera, pose: Pose) -> tuple[float, float]:
-    """Return the least and the greatest depth in view, with a little to spare.
+    """Least and the greatest depth in view, with a little to spare.
 
     The ground's are its plane's along the frame's border, and as much nearer as ripples and
     pebbles rise above it; where the border shows sky the ground's far edge counts. The nearer the
@@ -90,7 +90,7 @@ def depth_limits_m(stage: Stage, camera: RenderCamera, pose: Pose) -> tuple[floa
 
 
 def _box_px(vertices_m: Floats, camera: RenderCamera, pose: Pose) -> Floats:
-    """Return left, top, right, bottom of a rock's projection, (4,); NaN if not all is ahead."""
+    """Left, top, right, bottom of a rock's projection, (4,); NaN if not all is ahead."""
     points_m = pose.camera_points_m(vertices_m)
     if points_m[:, 2].min() <= _NEAREST_M:
         return np.full(4, np.nan)
@@ -99,7 +99,7 @@ def _box_px(vertices_m: Floats, camera: RenderCamera, pose: Pose) -> Floats:
 
 
 def _hidden_groups(boxes_px: tuple[Floats, ...], camera: RenderCamera) -> list[list[int]]:
-    """Return the rocks whose boxes overlap another's, in groups without overlap inside.
+    """Rocks whose boxes overlap another's, in groups without overlap inside.
 
     A rock whose box is free of all others is seen whole: its label is its silhouette already; one
     whose box is outside the frame is not seen at all.

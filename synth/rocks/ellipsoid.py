@@ -16,7 +16,7 @@ Floats = NDArray[np.float64]
 
 
 def ellipsoid(half_axes_m: Floats) -> RockModel:
-    """Return the solid ellipsoid with half-axes (3,), a >= b >= c.
+    """Solid ellipsoid with half-axes (3,), a >= b >= c.
 
     V = 4πabc/3; S by Carlson's symmetric integral; among orthogonal boxes round an ellipsoid,
     which all have the same diagonal (Monge), the aligned one is the smallest. Its roundness is not
@@ -41,13 +41,13 @@ def ellipsoid(half_axes_m: Floats) -> RockModel:
 
 
 def ellipsoid_area_m2(half_axes_m: Floats) -> float:
-    """Return 4π R_G(a²b², a²c², b²c²), the area of an ellipsoid (DLMF 19.33.2)."""
+    """4π R_G(a²b², a²c², b²c²), the area of an ellipsoid (DLMF 19.33.2)."""
     a2, b2, c2 = half_axes_m**2
     return float(4.0 * np.pi * elliprg(a2 * b2, a2 * c2, b2 * c2))
 
 
 def ellipsoid_mesh(half_axes_m: Floats, subdivisions: int = SUBDIVISIONS) -> Mesh:
-    """Return a mesh whose vertices lie on the ellipsoid, with its exact normals."""
+    """Mesh whose vertices lie on the ellipsoid, with its exact normals."""
     directions, faces = unit_sphere(subdivisions)
     normals = directions / half_axes_m
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)

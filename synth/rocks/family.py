@@ -20,7 +20,7 @@ Grade = Callable[[RocksSpec, Sequence[tuple[Floats, float]], np.random.Generator
 
 @dataclass(frozen=True, eq=False)
 class Family:
-    """A family of rocks.
+    """Rock family.
 
     `draw` returns one rock from the spec, the half-axes (3,) wanted, a >= b >= c in metres, and
     random numbers. `grade` returns one form in several pairs of half-axes and rounding (edge
@@ -54,7 +54,7 @@ def find_family(name: str) -> Family:
     """Rock family of a name.
 
     Raises:
-        InputError: no family has the name, or what has it is no `Family`.
+        SpecError: no family has the name, or what has it is no `Family`.
     """
     found = FAMILIES.find(name)
     if not isinstance(found, Family):
@@ -66,7 +66,7 @@ def register_family(family: Family) -> Family:
     """Add a rock family to this process and to the worker processes that it starts.
 
     Raises:
-        InputError: the name is taken by a family of the package or of an entry point.
+        SpecError: the name is taken by a family of the package or of an entry point.
     """
     FAMILIES.register(family)
     return family
@@ -76,6 +76,6 @@ def family_options(spec: RocksSpec) -> Struct | None:
     """Options of the spec's family, of its own struct; None where it has none.
 
     Raises:
-        InputError: a key or value that the family does not allow.
+        SpecError: a key or value that the family does not allow.
     """
     return options_of("family", find_family(spec.family), spec.options)

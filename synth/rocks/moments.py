@@ -1,4 +1,4 @@
-"""The exact volume, centroid and second moments of P ⊕ B_r, by integrals over its surface."""
+"""Exact volume, centroid and second moments of P ⊕ B_r, by integrals over its surface."""
 
 from dataclasses import dataclass
 from itertools import pairwise
@@ -15,7 +15,7 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)  # exact to rounding on a
 
 @dataclass(frozen=True, eq=False)
 class Moments:
-    """A body's volume, centroid and second central moments over its volume."""
+    """Volume, centroid and second central moments of a body, over its volume."""
 
     volume_m3: float
     centroid_m: Floats  # (3,)
@@ -23,7 +23,7 @@ class Moments:
 
 
 def rounded_moments(polyhedron: Polyhedron, radius_m: float) -> Moments:
-    """Return the moments of P ⊕ B_r, exact but for rounding.
+    """Moments of P ⊕ B_r, exact but for rounding.
 
     By Euler's theorem on homogeneous functions and the divergence theorem,
     V = ∮ (x·n) dS/3, ∫ x dV = ∮ x (x·n) dS/4 and ∫ x xᵀ dV = ∮ x xᵀ (x·n) dS/5. The surface is
@@ -106,7 +106,7 @@ class _Sums:
 
 
 def _cap(polyhedron: Polyhedron, edges: list[tuple[int, int, int, int]], vertex: int) -> _Cap:
-    """Return the moments of the normals at a vertex, a polygon of great circles on the sphere.
+    """Moments of the normals at a vertex, a polygon of great circles on the sphere.
 
     Its solid angle is 2π less the face angles there (Descartes). The rest follow from it and the
     arcs, whose outward poles p point along the edges away from the vertex (Stokes's theorem; such
@@ -136,7 +136,7 @@ def _cap(polyhedron: Polyhedron, edges: list[tuple[int, int, int, int]], vertex:
 
 
 def _face_angles_rad(polyhedron: Polyhedron, vertex: int) -> list[float]:
-    """Return the angles of the faces that meet at a vertex."""
+    """Angles of the faces that meet at a vertex."""
     angles_rad = []
     for loop in polyhedron.loops:
         if vertex in loop:
@@ -149,7 +149,7 @@ def _face_angles_rad(polyhedron: Polyhedron, vertex: int) -> list[float]:
 
 
 def _arc(start: Floats, end: Floats) -> tuple[Floats, Floats]:
-    """Return nodes (n, 3) and steps (n,) of the great circle between two unit vectors."""
+    """Nodes (n, 3) and steps (n,) of the great circle between two unit vectors."""
     turn_rad = angle_rad(start, end)
     along_rad = turn_rad * (_NODES[:, None] + 1.0) / 2.0
     arms = np.sin(turn_rad - along_rad) * start + np.sin(along_rad) * end

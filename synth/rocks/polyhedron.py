@@ -1,4 +1,4 @@
-"""Convex polyhedra as the common part of half-spaces, with their exact V, S and M."""
+"""Convex polyhedra as intersections of half-spaces, with their exact V, S and M."""
 
 from dataclasses import dataclass
 
@@ -17,7 +17,7 @@ _ATTEMPTS = 100
 
 @dataclass(frozen=True, eq=False)
 class Polyhedron:
-    """A convex polyhedron that holds the origin."""
+    """Convex polyhedron that holds the origin."""
 
     vertices_m: Floats  # (n, 3)
     loops: tuple[tuple[int, ...], ...]  # a face's vertices, anticlockwise seen from outside
@@ -29,12 +29,12 @@ class Polyhedron:
         self.normals.setflags(write=False)
 
     def offsets_m(self) -> Floats:
-        """Return each face's distance from the origin along its normal, (faces,)."""
+        """Each face's distance from the origin along its normal, (faces,)."""
         anchors = self.vertices_m[[loop[0] for loop in self.loops]]
         return np.asarray(np.einsum("ij,ij->i", anchors, self.normals))
 
     def edges(self) -> list[tuple[int, int, int, int]]:
-        """Return (v, w, f, g) for each edge: face f runs it from v to w, face g from w to v."""
+        """Edges (v, w, f, g): face f runs it from v to w, face g from w to v."""
         owner = {
             (v, w): face
             for face, loop in enumerate(self.loops)
@@ -43,7 +43,7 @@ class Polyhedron:
         return [(v, w, f, owner[w, v]) for (v, w), f in owner.items() if v < w]
 
     def mapped(self, matrix: Floats) -> "Polyhedron":
-        """Return the image under a linear map (3, 3) of positive determinant."""
+        """Image under a linear map (3, 3) of positive determinant."""
         normals = self.normals @ np.linalg.inv(matrix)
         return Polyhedron(
             vertices_m=self.vertices_m @ matrix.T,
@@ -52,7 +52,7 @@ class Polyhedron:
         )
 
     def shifted(self, shift_m: Floats) -> "Polyhedron":
-        """Return the polyhedron moved by a vector (3,)."""
+        """Polyhedron moved by a vector (3,)."""
         return Polyhedron(
             vertices_m=self.vertices_m + shift_m, loops=self.loops, normals=self.normals.copy()
         )
@@ -60,7 +60,7 @@ class Polyhedron:
 
 @dataclass(frozen=True)
 class Functionals:
-    """The three numbers from which Steiner's formula takes the volume and area of P ⊕ B_r."""
+    """Minkowski functionals, from which Steiner's formula takes volume and area of P ⊕ B_r."""
 
     volume_m3: float
     area_m2: float
@@ -68,12 +68,12 @@ class Functionals:
 
 
 def from_half_spaces(normals: Floats, offsets_m: Floats) -> Polyhedron:
-    """Return {x : n·x <= h for each half-space}, from unit normals (k, 3) and offsets (k,) > 0.
+    """Polyhedron {x : n·x <= h for each half-space}, from unit normals (k, 3) and offsets (k,) > 0.
 
     A half-space that cuts nothing off leaves no face.
 
     Raises:
-        InputError: the half-spaces leave the body unbounded.
+        SpecError: the half-spaces leave the body unbounded.
     """
     if not _surround_origin(normals):
         raise SpecError("half-spaces: expected a bounded body, found an open one")
@@ -90,13 +90,13 @@ def from_half_spaces(normals: Floats, offsets_m: Floats) -> Polyhedron:
 
 
 def tangent_cuts(half_axes_m: Floats, *, cuts: int, rng: np.random.Generator) -> Polyhedron:
-    """Return a polyhedron whose faces all touch an ellipsoid, in random but spread directions.
+    """Polyhedron whose faces all touch an ellipsoid, in random but spread directions.
 
     The unit ball's tangent planes are drawn one by one, each the farthest of a few from those
     before it; the ball is then stretched, and tangency survives the stretch.
 
     Raises:
-        InputError: so few cuts that no bounded body of decent proportions came up.
+        SpecError: so few cuts that no bounded body of decent proportions came up.
     """
     for _ in range(_ATTEMPTS):
         normals = _spread_directions(cuts, rng)
@@ -110,13 +110,13 @@ def tangent_cuts(half_axes_m: Floats, *, cuts: int, rng: np.random.Generator) ->
 
 
 def cuboid(half_axes_m: Floats) -> Polyhedron:
-    """Return the box with the given half sides (3,) along the axes."""
+    """Box with the given half sides (3,) along the axes."""
     normals = np.concatenate([np.eye(3), -np.eye(3)])
     return from_half_spaces(normals, np.concatenate([half_axes_m, half_axes_m]))
 
 
 def functionals(polyhedron: Polyhedron) -> Functionals:
-    """Return volume, area and integral mean curvature, all exact."""
+    """Volume, area and integral mean curvature, all exact."""
     areas_m2 = np.array([_face_area_m2(polyhedron, face) for face in range(len(polyhedron.loops))])
     bend_m = 0.0
     for v, w, f, g in polyhedron.edges():
@@ -130,18 +130,18 @@ def functionals(polyhedron: Polyhedron) -> Functionals:
 
 
 def inradius_m(polyhedron: Polyhedron) -> float:
-    """Return the radius of a largest ball inside."""
+    """Radius of a largest ball inside."""
     return largest_ball(polyhedron.normals, polyhedron.offsets_m())[1]
 
 
 def angle_rad(first: Floats, second: Floats) -> float:
-    """Return the angle between two unit vectors, accurate when it is small."""
+    """Angle between two unit vectors, accurate when it is small."""
     sine = np.linalg.norm(np.cross(first, second))
     return float(np.arctan2(sine, first @ second))
 
 
 def _surround_origin(normals: Floats) -> bool:
-    """Tell whether the origin is inside the hull of the normals: the half-spaces then close."""
+    """Whether the origin is inside the hull of the normals: the half-spaces then close."""
     try:
         return bool((ConvexHull(normals).equations[:, 3] < -1e-9).all())
     except QhullError:
@@ -149,7 +149,7 @@ def _surround_origin(normals: Floats) -> bool:
 
 
 def _spread_directions(count: int, rng: np.random.Generator) -> Floats:
-    """Return unit vectors, (count, 3): each the best of a few (Mitchell 1991)."""
+    """Unit vectors, (count, 3): each the best of a few (Mitchell 1991)."""
     chosen = np.empty((count, 3))
     for index in range(count):
         candidates = rng.standard_normal((_DRAWS, 3))
@@ -160,7 +160,7 @@ def _spread_directions(count: int, rng: np.random.Generator) -> Floats:
 
 
 def _distinct(points_m: Floats, *, tolerance_m: float) -> Floats:
-    """Return the points that are no copy of an earlier one."""
+    """Points that are no copy of an earlier one."""
     kept: list[Floats] = []
     for point in points_m:
         if all(np.abs(point - other).max() > tolerance_m for other in kept):
@@ -169,7 +169,7 @@ def _distinct(points_m: Floats, *, tolerance_m: float) -> Floats:
 
 
 def _loop(vertices_m: Floats, members: NDArray[np.intp], normal: Floats) -> tuple[int, ...]:
-    """Return a convex face's vertices in order round its normal."""
+    """Convex face's vertices in order round its normal."""
     arms = vertices_m[members] - vertices_m[members].mean(axis=0)
     across = np.cross(normal, arms[0])
     turn_rad = np.arctan2(arms @ across, arms @ np.cross(across, normal))

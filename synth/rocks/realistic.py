@@ -1,4 +1,4 @@
-"""Realistic rocks: broken from a bed, chipped, worn and rough. Their truth is their mesh's."""
+"""Realistic rocks: broken from a bed, chipped, worn and rough; the truth is the mesh's."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -28,7 +28,7 @@ _SHARPEST, _BLUNTEST = 90.0, 7.0  # exponents of the soft minimum at abrasion 0 
 
 @dataclass(frozen=True)
 class Realism:
-    """How a realistic rock is broken and worn."""
+    """Parameters of a realistic rock: fracture, wear and relief."""
 
     cuts: int  # main faces
     chips: int  # small cuts that take off corners and edges
@@ -41,7 +41,7 @@ class Realism:
 
 
 def realistic(half_axes_m: Floats, realism: Realism, *, rng: np.random.Generator) -> RockModel:
-    """Return a broken rock whose smallest box has about the given half-axes.
+    """Broken rock whose smallest box has about the given half-axes.
 
     On a direction w its unit form has the radius (Σ_i (n_i·w/h_i(w))^p)^(-1/p) over its cuts: a
     soft minimum of planes, the softer the more worn: an edge's radius, about 1/p, grows evenly
@@ -86,7 +86,7 @@ def realistic(half_axes_m: Floats, realism: Realism, *, rng: np.random.Generator
 
 
 def _main_cuts(realism: Realism, rng: np.random.Generator) -> tuple[Floats, Floats]:
-    """Return the main cuts' normals (n, 3), spread but uneven, and distances (n,)."""
+    """Main cuts' normals (n, 3), spread but uneven, and distances (n,)."""
     normals = np.empty((realism.cuts, 3))
     for index in range(realism.cuts):
         drawn = rng.standard_normal((4, 3))
@@ -108,13 +108,13 @@ def _main_cuts(realism: Realism, rng: np.random.Generator) -> tuple[Floats, Floa
 
 @lru_cache(maxsize=2)
 def _surroundings(subdivisions: int) -> csr_array:
-    """Return which directions of an even mesh lie within a chip's reach of which, (n, n)."""
+    """Adjacency of an even mesh's directions within a chip's reach, (n, n)."""
     directions = unit_sphere(subdivisions)[0]
     return csr_array(directions @ directions.T > np.cos(_CHIP_REACH_RAD), dtype=np.float64)
 
 
 def _chips(surface: Floats, count: int, rng: np.random.Generator) -> tuple[Floats, Floats]:
-    """Return cuts that take a little off where the surface (n, 3) stands out, most of them small.
+    """Cuts that take a little off where the surface (n, 3) stands out, most of them small.
 
     A cut lies across the corner: its normal leads from the middle of the surroundings to the top.
     """
@@ -145,7 +145,7 @@ def _radii(
     steep: float,
     rng: np.random.Generator,
 ) -> Floats:
-    """Return the soft minimum over undulating cuts of the distance along directions, (n,).
+    """Soft minimum over undulating cuts of the distance along directions, (n,).
 
     A cut far behind the nearest adds nothing and is left out, and with it its undulation.
     """
@@ -161,7 +161,7 @@ def _radii(
 
 
 def _undulation(points: Floats, rng: np.random.Generator) -> Floats:
-    """Return a random function of points (n, 3) in space, of RMS about 1 over many draws."""
+    """Random function of points (n, 3) in space, of RMS about 1 over many draws."""
     value, points = np.zeros(len(points)), points.astype(np.float32)
     heights = np.array([(_OCTAVES[0] / octave) ** _FALL for octave in _OCTAVES])
     heights /= np.linalg.norm(heights)
@@ -173,7 +173,7 @@ def _undulation(points: Floats, rng: np.random.Generator) -> Floats:
 
 
 def _fitted(vertices: Floats, faces: NDArray[np.int64], half_axes_m: Floats) -> Mesh:
-    """Return the unit form stretched to the half-axes, its centroid at the origin."""
+    """Unit form stretched to the half-axes, its centroid at the origin."""
     size = np.ptp(vertices, axis=0) / 2.0
     vertices_m = vertices / size * half_axes_m
     mesh = Mesh(vertices_m=vertices_m, faces=faces, normals=vertex_normals(vertices_m, faces))

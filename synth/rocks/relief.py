@@ -1,4 +1,4 @@
-"""Relief: a band of bumps of exact RMS on any rock."""
+"""Relief: band-limited bumps of exact RMS on any rock."""
 
 from dataclasses import replace
 
@@ -36,7 +36,7 @@ def with_relief(
     rng: np.random.Generator,
     halvings: int = 0,
 ) -> RockModel:
-    """Return the rock with relief on it, turned into its own smallest box.
+    """Rock with relief on it, turned into its own smallest box.
 
     The relief's height is a function of the direction from the centroid alone, of the given
     degrees of spherical harmonics; its mean over the smooth surface is zero and its RMS there is
@@ -47,7 +47,7 @@ def with_relief(
     roundness, which grow and fall with the relief's finest detail, are no truths of its shape.
 
     Raises:
-        InputError: a relief so high that it folds over.
+        SpecError: a relief so high that it folds over.
     """
     size_m = float(np.cbrt(np.prod(rock.truth.half_axes_box_m)))
     smooth = even_mesh(rock, subdivisions=_subdivisions(rock, degrees[1]) + halvings)
@@ -84,7 +84,7 @@ def displaced(
     degrees: tuple[int, int],
     rng: np.random.Generator,
 ) -> Mesh:
-    """Return the mesh moved by relief of exactly this RMS and no mean.
+    """Mesh moved by relief of exactly this RMS and no mean.
 
     The relief is a function of one direction (n, 3) for each vertex, and moves it along another.
     """
@@ -106,7 +106,7 @@ def boxed(
     relief_rms_m: float | None,
     degrees: tuple[int, int] | None,
 ) -> RockModel:
-    """Return the rock that a mesh is, turned into its smallest box, its centroid at the origin."""
+    """Rock that a mesh is, turned into its smallest box, its centroid at the origin."""
     box = smallest_box(mesh.vertices_m)
     truth = Truth(
         half_axes_box_m=box.half_sides_m,
@@ -126,7 +126,7 @@ def boxed(
 
 
 def _subdivisions(rock: RockModel, last_degree: int) -> int:
-    """Return how often the sphere's 20 facets are split to hold the relief and the form."""
+    """Subdivisions of the sphere's 20 facets that resolve the relief and the form."""
     wave_rad = 2.0 * np.pi / last_degree
     for subdivisions in range(SUBDIVISIONS, _FINEST):
         if _EDGE_RAD / 2.0**subdivisions <= wave_rad / _EDGES_PER_WAVE and (
@@ -137,7 +137,7 @@ def _subdivisions(rock: RockModel, last_degree: int) -> int:
 
 
 def _require_unfolded(smooth: Mesh, rough: Mesh, along: Floats) -> None:
-    """Raise InputError where the relief has turned facets over.
+    """Raise SpecError where the relief has turned facets over.
 
     Such a facet has turned against the relief's direction (n, 3), and by more than a right angle:
     one that lay nearly along that direction may turn against it by a little without a fold.
@@ -155,6 +155,6 @@ def _require_unfolded(smooth: Mesh, rough: Mesh, along: Floats) -> None:
 
 
 def _outward_m2(mesh: Mesh) -> Floats:
-    """Return the facets' normals times twice their areas, (m, 3)."""
+    """Facets' normals times twice their areas, (m, 3)."""
     first, second, third = mesh.vertices_m[mesh.faces].transpose(1, 0, 2)
     return np.cross(second - first, third - first)

@@ -1,4 +1,4 @@
-"""Even meshes of rocks, fine enough to lay relief on."""
+"""Remeshing of rocks, fine enough to carry relief."""
 
 import numpy as np
 import trimesh
@@ -17,14 +17,14 @@ _NUDGES = (0.0, 1e-5, -1e-5, 1e-4, -1e-4)  # turns of a ray that slipped through
 
 
 def even_mesh(rock: RockModel, *, subdivisions: int) -> Mesh:
-    """Return a rock's surface on a mesh of about 20 × 4^subdivisions facets.
+    """Rock's surface on a mesh of about 20 × 4^subdivisions facets.
 
     Smooth forms are meshed anew, their vertices on the surface. A body that is known by its facets
     alone is subdivided by Loop's rule, which rounds them off. On P ⊕ B_r the vertices lie on the
     facets of its own mesh.
 
     Raises:
-        InputError: a body that does not surround its centroid.
+        SpecError: a body that does not surround its centroid.
     """
     if rock.remesh is not None:
         return rock.remesh(subdivisions)
@@ -34,7 +34,7 @@ def even_mesh(rock: RockModel, *, subdivisions: int) -> Mesh:
 
 
 def _rounded_off(mesh: Mesh, *, facets: int) -> Mesh:
-    """Return the mesh after as many of Loop's subdivisions as bring it nearest to so many facets.
+    """Mesh after as many of Loop's subdivisions as bring it nearest to so many facets.
 
     Each splits every facet in four and moves its corners towards a surface without creases
     (Loop 1987); at least two, to be rid of the facets.
@@ -48,13 +48,13 @@ def _rounded_off(mesh: Mesh, *, facets: int) -> Mesh:
 
 
 def resampled(mesh: Mesh, half_axes_m: Floats, *, subdivisions: int) -> Mesh:
-    """Return the surface that the origin's rays meet last, on an even mesh.
+    """Surface that the origin's rays meet last, on an even mesh.
 
     The vertices lie on the mesh's facets, on rays through an even mesh of the ellipsoid with the
     half-axes. Where a ray meets the surface more than once, what lies within is left out.
 
     Raises:
-        InputError: a ray misses the surface.
+        SpecError: a ray misses the surface.
     """
     directions, faces = unit_sphere(subdivisions)
     rays = directions * half_axes_m
@@ -74,7 +74,7 @@ def resampled(mesh: Mesh, half_axes_m: Floats, *, subdivisions: int) -> Mesh:
 
 
 def _reach_m(mesh: Mesh, rays: Floats, surface: RayMeshIntersector, starts_m: Floats) -> Floats:
-    """Return how far along rays (n, 3) the facets lie that are met on the way in, 0 if none."""
+    """Distance along rays (n, 3) to the facets met on the way in, 0 if there are none."""
     towards = -starts_m / np.linalg.norm(starts_m, axis=1, keepdims=True)
     hit = np.asarray(surface.intersects_first(starts_m, towards))
     first, second, third = mesh.vertices_m[mesh.faces[hit]].transpose(1, 0, 2)

@@ -25,13 +25,13 @@ _SETTLED_WITHIN, _HELD_WITHIN = 1e-6, 0.01
 
 
 class UnsettledError(ArithmeticError):
-    """A polyhedron whose smallest box will not settle at the wanted half-axes."""
+    """Polyhedron whose smallest box does not converge to the wanted half-axes."""
 
 
 def hold_axes(
     polyhedron: Polyhedron, half_axes_m: Floats, *, rounding: float
 ) -> tuple[Polyhedron, float]:
-    """Return P' and r such that the smallest box of P' ⊕ B_r has the given half-axes within 1 %.
+    """Polyhedron P' and radius r: the smallest box of P' ⊕ B_r has the half-axes within 1 %.
 
     P' is an affine image of P, in the frame of that box, and r = rounding × inradius(P'). Each
     step turns the body into its box and stretches it by (target − r)/(half side − r) along each
@@ -63,7 +63,7 @@ def hold_axes(
 def rounded_polyhedron(
     polyhedron: Polyhedron, half_axes_m: Floats, *, rounding: float
 ) -> RockModel:
-    """Return the rock P' ⊕ B_r with the given half-axes; see `hold_axes`, which may raise."""
+    """Rock P' ⊕ B_r with the given half-axes; see `hold_axes`, which may raise."""
     body, radius_m = hold_axes(polyhedron, half_axes_m, rounding=rounding)
     box_m = smallest_box(body.vertices_m, margin_m=radius_m).half_sides_m
     knobs = {"cuts": float(len(body.loops)), "rounding": rounding}
@@ -71,7 +71,7 @@ def rounded_polyhedron(
 
 
 def rounded_box(half_axes_m: Floats, *, rounding: float) -> RockModel:
-    """Return the rock box ⊕ B_r with the given half-axes; r = rounding × the box's least half side.
+    """Rock box ⊕ B_r with the given half-axes; r = rounding × the box's least half side.
 
     c = core + r and r = rounding × core give r = c × rounding/(1 + rounding).
     """
@@ -83,7 +83,7 @@ def rounded_box(half_axes_m: Floats, *, rounding: float) -> RockModel:
 def _rock(
     family: str, body: Polyhedron, radius_m: float, box_m: Floats, knobs: dict[str, float]
 ) -> RockModel:
-    """Return the record of P ⊕ B_r, its centroid at the origin."""
+    """Record of P ⊕ B_r, its centroid at the origin."""
     mesh = rounded_mesh(body, radius_m)
     inside_m = inradius_m(body)
     measured = functionals(body)

@@ -1,4 +1,4 @@
-"""The Minkowski sum of a convex polyhedron and a ball: closed forms, and an exact mesh."""
+"""Minkowski sum of a convex polyhedron and a ball: closed forms, and an exact mesh."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,7 @@ _STEPS_RAD = (0.03, 0.2)  # limits of the angle between neighbouring normals
 
 
 def rounded_volume_m3(body: Functionals, radius_m: float) -> float:
-    """Return V₀ + S₀r + Mr² + 4πr³/3, the volume of P ⊕ B_r (Steiner)."""
+    """Volume of P ⊕ B_r, V₀ + S₀r + Mr² + 4πr³/3 (Steiner)."""
     r = radius_m
     return (
         body.volume_m3 + body.area_m2 * r + body.mean_curvature_m * r**2 + 4.0 * np.pi * r**3 / 3.0
@@ -22,13 +22,13 @@ def rounded_volume_m3(body: Functionals, radius_m: float) -> float:
 
 
 def rounded_area_m2(body: Functionals, radius_m: float) -> float:
-    """Return S₀ + 2Mr + 4πr², the area of P ⊕ B_r (Steiner)."""
+    """Area of P ⊕ B_r, S₀ + 2Mr + 4πr² (Steiner)."""
     r = radius_m
     return body.area_m2 + 2.0 * body.mean_curvature_m * r + 4.0 * np.pi * r**2
 
 
 def rounded_mesh(polyhedron: Polyhedron, radius_m: float, *, split: int = 1) -> Mesh:
-    """Return a closed mesh of P ⊕ B_r; each vertex lies on the surface and has its exact normal.
+    """Closed mesh of P ⊕ B_r; each vertex lies on the surface and has its exact normal.
 
     A face moves outward by r, an edge becomes a strip of a cylinder, a vertex a spherical polygon
     whose corners are the normals of the faces that meet there. Neighbours share their vertices.
@@ -45,7 +45,7 @@ def rounded_mesh(polyhedron: Polyhedron, radius_m: float, *, split: int = 1) -> 
 
 
 class _Builder:
-    """Collects the vertices and faces of one rounded polyhedron."""
+    """Collector of the vertices and faces of one rounded polyhedron."""
 
     def __init__(self, polyhedron: Polyhedron, radius_m: float, *, split: int) -> None:
         step_rad = 2.0 * np.sqrt(2.0 * _SAG_M / radius_m)
@@ -94,7 +94,7 @@ class _Builder:
         self._faces.append(np.column_stack([layers[-1], after[-1], top]))
 
     def mesh(self) -> Mesh:
-        """Return what has been collected."""
+        """Mesh of what has been collected."""
         normals = np.concatenate(self._normals)
         cores_m = self._body.vertices_m[np.concatenate(self._owners)]
         return Mesh(
@@ -118,7 +118,7 @@ class _Builder:
         return self._corners[vertex, face]
 
     def _arc(self, vertex: int, f: int, g: int) -> Ints:
-        """Return the vertices from face f's normal to face g's, along the great circle."""
+        """Vertices from face f's normal to face g's, along the great circle."""
         if (vertex, f, g) not in self._arcs:
             start, end = self._body.normals[f], self._body.normals[g]
             turn_rad = angle_rad(start, end)
@@ -132,7 +132,7 @@ class _Builder:
         return self._arcs[vertex, f, g]
 
     def _faces_round(self, vertex: int) -> list[int]:
-        """Return the faces that meet at a vertex, anticlockwise seen from outside."""
+        """Faces that meet at a vertex, anticlockwise seen from outside."""
         faces = [face for face, loop in enumerate(self._body.loops) if vertex in loop]
         normals = self._body.normals[faces]
         middle = normals.sum(axis=0) / np.linalg.norm(normals.sum(axis=0))

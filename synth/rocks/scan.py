@@ -17,12 +17,12 @@ SUFFIXES = (".ply", ".obj", ".stl")
 
 
 def scan(path: str, *, diameter_m: float) -> RockModel:
-    """Return a file's body, scaled alike in all directions until 2a of its smallest box is given.
+    """Body of a file, scaled alike in all directions until 2a of its smallest box is given.
 
     The facets of the mesh are taken for the surface: volume and area are exact for them.
 
     Raises:
-        InputError: no mesh of one closed body.
+        SpecError: no mesh of one closed body.
     """
     rock = _read(path)
     factor = diameter_m / (2.0 * float(rock.truth.half_axes_box_m[0]))
@@ -43,7 +43,7 @@ def scan(path: str, *, diameter_m: float) -> RockModel:
 
 @lru_cache(maxsize=64)
 def _read(path: str) -> RockModel:
-    """Return the body in a file's own length."""
+    """Body of a file in the file's own unit of length."""
     name = Path(path).name
     if Path(path).suffix.lower() not in SUFFIXES:
         raise SpecError(f"{path}: expected a mesh file {', '.join(SUFFIXES)}, found {name}")

@@ -1,4 +1,4 @@
-"""Even meshes of the unit sphere, and random functions on it that keep to a band."""
+"""Even meshes of the unit sphere, and band-limited random functions on it."""
 
 from collections.abc import Iterator
 from functools import lru_cache
@@ -16,7 +16,7 @@ SUBDIVISIONS = 5  # 20,480 faces: 0.04 mm from a surface of 0.2 m radius
 
 @lru_cache(maxsize=4)
 def unit_sphere(subdivisions: int = SUBDIVISIONS) -> tuple[Floats, Ints]:
-    """Return an even mesh of the unit sphere: directions (n, 3) and faces (m, 3), read-only."""
+    """Even mesh of the unit sphere: directions (n, 3) and faces (m, 3), read-only."""
     sphere = trimesh.creation.icosphere(subdivisions=subdivisions)
     directions, faces = np.array(sphere.vertices), np.array(sphere.faces, dtype=np.int64)
     directions.setflags(write=False)
@@ -27,7 +27,7 @@ def unit_sphere(subdivisions: int = SUBDIVISIONS) -> tuple[Floats, Ints]:
 def band_limited(
     directions: Floats, *, degrees: tuple[int, int], rng: np.random.Generator
 ) -> Floats:
-    """Return a random function on the sphere, (n,), of the given degrees alone.
+    """Random function on the sphere, (n,), of the given degrees alone.
 
     It is Σ w_lm Y_lm with independent normal weights and ∫ Y² = 4π. A weight's deviation
     1/(l(2l + 1)) gives degree l the mean square 1/(l²(2l + 1)): coarse relief outweighs fine.
@@ -52,7 +52,7 @@ def band_limited(
 
 
 def _legendre(cosine: Floats, order: int, last_degree: int) -> Iterator[Floats]:
-    """Yield P̄_lm, l = m … last: associated Legendre functions with ∫ Y² = 4π.
+    """Associated Legendre functions with ∫ Y² = 4π.
 
     P̄_mm = √2 √(Π (2k + 1)/(2k)) sinᵐ θ, without √2 for m = 0; then
     P̄_lm = a (cos θ P̄_(l−1)m − P̄_(l−2)m/a') with a = √((4l² − 1)/(l² − m²)) and a' the a of

@@ -18,7 +18,7 @@ SUBDIVISIONS = 6  # 81,920 faces: with exponents up to 10 the facets take 1e-3 o
 
 
 def superellipsoid(half_axes_m: Floats, *, exponents: tuple[float, float]) -> RockModel:
-    """Return (|x/a|^p + |y/b|^p)^(q/p) + |z/c|^q <= 1 for exponents p, q >= 2.
+    """Superellipsoid (|x/a|^p + |y/b|^p)^(q/p) + |z/c|^q <= 1 for exponents p, q >= 2.
 
     Its aligned box is the smallest: the support function is an l_P, l_Q norm of (au, bv, cw) with
     P, Q <= 2, so at least its Euclidean norm, and the product of three such norms on orthogonal
@@ -46,7 +46,7 @@ def superellipsoid(half_axes_m: Floats, *, exponents: tuple[float, float]) -> Ro
 def integrals(
     half_axes_m: Floats, exponents: tuple[float, float], *, nodes: int = NODES
 ) -> tuple[float, float, Floats]:
-    """Return volume, area and the mean of x², y², z² over the volume, (3,).
+    """Volume, area and the mean of x², y², z² over the volume, (3,).
 
     Over directions w of the sphere, with the gauge g of the body with unit half-axes,
     V = abc ∫ g⁻³/3, S = abc ∫ |A⁻¹∇g| g⁻³ and ∫ x_i² dV = abc a_i² ∫ w_i² g⁻⁵/5 dΩ, each eight
@@ -69,7 +69,7 @@ def integrals(
 
 
 def _gauge(directions: Floats, exponents: tuple[float, float]) -> tuple[Floats, Floats]:
-    """Return g(w), (n,), by which w must be divided to lie on the unit body, and ∇g, (n, 3)."""
+    """Gauge g(w), (n,), by which w must be divided to lie on the unit body, and ∇g, (n, 3)."""
     level, steep = exponents
     size = np.abs(directions)
     sum_level = (size[:, :2] ** level).sum(axis=1)
@@ -84,7 +84,7 @@ def _gauge(directions: Floats, exponents: tuple[float, float]) -> tuple[Floats, 
 def superellipsoid_mesh(
     half_axes_m: Floats, exponents: tuple[float, float], subdivisions: int = SUBDIVISIONS
 ) -> Mesh:
-    """Return a mesh whose vertices lie on the surface, with its exact normals."""
+    """Mesh whose vertices lie on the surface, with its exact normals."""
     directions, faces = unit_sphere(subdivisions)
     gauge, gradient = _gauge(directions, exponents)
     normals = gradient / half_axes_m

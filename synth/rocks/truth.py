@@ -1,4 +1,4 @@
-"""What is true of a body: half-axes in two senses, sphericity, volume, area and roundness."""
+"""Truth of a body: half-axes in two senses, sphericity, volume, area and roundness."""
 
 from dataclasses import dataclass
 
@@ -10,7 +10,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Truth:
-    """What is true of one rock; None where the body's family has no such truth."""
+    """Truth of one rock; None where the body's family has no such truth."""
 
     half_axes_box_m: Floats  # (3,), a >= b >= c, half the sides of the smallest enclosing box
     half_axes_inertia_m: Floats  # (3,), a >= b >= c, of the ellipsoid with the same inertia
@@ -27,31 +27,43 @@ class Truth:
         self.half_axes_inertia_m.setflags(write=False)
 
     def maximum_projection_sphericity(self) -> float:
-        """Return (c²/(ab))^(1/3) of the smallest box (Sneed and Folk 1958)."""
+        """Maximum projection sphericity (c²/(ab))^(1/3) of the smallest box.
+
+        Source: Sneed and Folk 1958.
+        """
         return maximum_projection_sphericity(self.half_axes_box_m)
 
     def maximum_projection_sphericity_inertia(self) -> float:
-        """Return (c²/(ab))^(1/3) of the ellipsoid with the same inertia."""
+        """Maximum projection sphericity (c²/(ab))^(1/3) of the ellipsoid with the same inertia."""
         return maximum_projection_sphericity(self.half_axes_inertia_m)
 
     def krumbein_sphericity(self) -> float:
-        """Return (bc/a²)^(1/3) of the smallest box, the intercept sphericity (Krumbein 1941)."""
+        """Intercept sphericity (bc/a²)^(1/3) of the smallest box.
+
+        Source: Krumbein 1941.
+        """
         longest, middle, shortest = self.half_axes_box_m
         return float(np.cbrt(middle * shortest / longest**2))
 
     def wadell_sphericity(self) -> float | None:
-        """Return π^(1/3) (6V)^(2/3) / S (Wadell 1932), or None where the area has no truth."""
+        """Wadell sphericity π^(1/3) (6V)^(2/3) / S; None where the area has no truth.
+
+        Source: Wadell 1932.
+        """
         if self.area_m2 is None:
             return None
         return float(np.cbrt(np.pi * (6.0 * self.volume_m3) ** 2) / self.area_m2)
 
 
 def maximum_projection_sphericity(half_axes_m: Floats) -> float:
-    """Return (c²/(ab))^(1/3) of half-axes a >= b >= c (Sneed and Folk 1958)."""
+    """Maximum projection sphericity (c²/(ab))^(1/3) of half-axes a >= b >= c.
+
+    Source: Sneed and Folk 1958.
+    """
     longest, middle, shortest = half_axes_m
     return float(np.cbrt(shortest**2 / (longest * middle)))
 
 
 def half_axes_of_covariance_m(covariance_m2: Floats) -> Floats:
-    """Return a >= b >= c, (3,), of the solid ellipsoid with these second moments: √(5 λ)."""
+    """Half-axes a >= b >= c, (3,), of the solid ellipsoid with these second moments: √(5 λ)."""
     return np.asarray(np.sqrt(5.0 * np.linalg.eigvalsh(covariance_m2)[::-1]))

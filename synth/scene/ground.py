@@ -1,4 +1,4 @@
-"""The ground: a plane with a slope, ripples of sand and pebbles."""
+"""Ground: a plane with a slope, sand ripples and pebbles."""
 
 from dataclasses import dataclass
 
@@ -21,7 +21,7 @@ _SECOND = 0.2  # amplitude of the second harmonic, which sharpens the crests
 
 @dataclass(frozen=True, eq=False)
 class Terrain:
-    """z over x and y: g·(x, y), and ripples within a radius that fade out round it."""
+    """Height field z = g·(x, y), and ripples that fade out beyond a radius."""
 
     gradient: Floats  # (2,), the slope
     ripple_height_m: float
@@ -31,11 +31,11 @@ class Terrain:
     stones: Mesh | None
 
     def heights_m(self, places_m: Floats) -> Floats:
-        """Return z at places (..., 2)."""
+        """Heights z at places (..., 2)."""
         return np.asarray(places_m @ self.gradient + self.ripples_m(places_m))
 
     def ripples_m(self, places_m: Floats) -> Floats:
-        """Return what the ripples add to z at places (..., 2), half their height to both sides."""
+        """Ripple heights at places (..., 2), half their height to both sides of the plane."""
         if self.ripple_height_m == 0.0:
             return np.zeros(places_m.shape[:-1])
         phase = places_m @ self.wave_per_m
@@ -46,16 +46,16 @@ class Terrain:
         return np.asarray(self.ripple_height_m / 2.0 * fade * shape)
 
     def plane_normal(self) -> Floats | None:
-        """Return the unit normal, (3,), where the ground is a plane through the origin."""
+        """Unit normal, (3,), where the ground is a plane through the origin."""
         return None if self.ripple_height_m else self.normal()
 
     def normal(self) -> Floats:
-        """Return the slope's unit normal, (3,)."""
+        """Slope's unit normal, (3,)."""
         normal = np.array([-self.gradient[0], -self.gradient[1], 1.0])
         return np.asarray(normal / np.linalg.norm(normal))
 
     def meshes(self) -> tuple[Mesh, ...]:
-        """Return the surface, two triangles if it is a plane, and the pebbles."""
+        """Surface, two triangles if it is a plane, and the pebbles."""
         lines_m = self._grid_lines_m()
         places_m = np.stack(np.meshgrid(lines_m, lines_m), axis=-1).reshape(-1, 2)
         vertices_m = np.column_stack([places_m, self.heights_m(places_m)])
@@ -73,7 +73,7 @@ class Terrain:
         return (surface,) if self.stones is None else (surface, self.stones)
 
     def _grid_lines_m(self) -> Floats:
-        """Return where the mesh has its lines: evenly over the ripples, ever farther outside."""
+        """Grid lines of the mesh: evenly over the ripples, ever farther outside."""
         if self.ripple_height_m == 0.0:
             return np.array([-HALF_SIDE_M, HALF_SIDE_M])
         rippled_m = 1.4 * self.radius_m
@@ -86,7 +86,7 @@ class Terrain:
 
 
 def make_ground(spec: GroundSpec, *, radius_m: float, rng: np.random.Generator) -> Terrain:
-    """Return the ground, its ripples and pebbles within a radius of the scene's centre."""
+    """Ground, its ripples and pebbles within a radius of the scene's centre."""
     azimuth_rad = np.deg2rad(spec.slope_azimuth_deg)
     rise = np.tan(np.deg2rad(spec.slope_deg))
     gradient = rise * np.array([np.cos(azimuth_rad), np.sin(azimuth_rad)])

@@ -27,12 +27,12 @@ def pebbles(
     radius_m: float,
     rng: np.random.Generator,
 ) -> Mesh | None:
-    """Return all pebbles on a disc as one mesh, or None where the spec wants none.
+    """All pebbles on a disc as one mesh, or None where the spec wants none.
 
     Each is the hull of a few points on an ellipsoid, stretched, turned and sunk by half or so.
 
     Raises:
-        InputError: too many.
+        SpecError: too many.
     """
     count = round(spec.pebbles_per_m2 * np.pi * radius_m**2)
     if count == 0:
@@ -66,7 +66,7 @@ def pebbles(
 
 
 def _shape(rng: np.random.Generator) -> tuple[Floats, NDArray[np.int64]]:
-    """Return a stone's corners, (n, 3) with longest half-axis 1 or less, and outward faces."""
+    """Stone's corners, (n, 3) with longest half-axis 1 or less, and outward faces."""
     points = rng.standard_normal((_CORNERS, 3))
     points /= np.linalg.norm(points, axis=1, keepdims=True)
     points *= np.sort(rng.uniform(_MIN_AXIS, 1.0, size=3))[::-1]

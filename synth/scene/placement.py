@@ -1,4 +1,4 @@
-"""Where rocks lie: apart from one another, and either in every view or all over a disc."""
+"""Placement of rocks: apart from one another, and either in every view or all over a disc."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ _FRAME_MARGIN = 1.05  # a rock's sphere, with this much to spare, lies inside ev
 
 @dataclass(frozen=True, eq=False)
 class PlacementArea:
-    """Ground on which rocks may lie, all inside every view."""
+    """Placement area: ground on which rocks lie inside every view."""
 
     reach_m: float  # from the scene's centre
     spacing: float  # least distance of two places over the sum of the rocks' radii
@@ -32,14 +32,14 @@ class PlacementArea:
 
 
 def scatter(meshes: Sequence[Mesh], yard: PlacementArea, *, rng: np.random.Generator) -> Floats:
-    """Return places (n, 2) on the ground for rocks that stand on the vertical through the origin.
+    """Places (n, 2) on the ground for rocks that stand on the vertical through the origin.
 
     The distance between two places is at least spacing × the sum of the rocks' radii about the
     vertical; a sphere round each rock is inside every frustum. Places are drawn evenly over the
     ground, a plane of the given gradient; when one rock finds none, all start afresh.
 
     Raises:
-        InputError: the ground is full.
+        SpecError: the ground is full.
     """
     places_m = _thrown(_sizes_m(meshes), yard, rng, starts=_STARTS)
     if len(places_m) < len(meshes):
@@ -53,7 +53,7 @@ def refuse_crowd(
     """Raise if by far not so many rocks fit, before all are made: a few stand for the rest.
 
     Raises:
-        InputError: rocks of the sample's sizes fill the ground with less than 0.7 of the count.
+        SpecError: rocks of the sample's sizes fill the ground with less than 0.7 of the count.
     """
     places_m = _thrown(np.resize(_sizes_m(sample), (count, 2)), yard, rng, starts=_TRIAL_STARTS)
     if len(places_m) < _CLEARLY * count:
@@ -63,7 +63,7 @@ def refuse_crowd(
 def _thrown(
     sizes_m: Floats, yard: PlacementArea, rng: np.random.Generator, *, starts: int
 ) -> Floats:
-    """Return places for rocks of the sizes (n, 2) of `_sizes_m`; where not all fit, the most."""
+    """Places for rocks of the sizes (n, 2) of `_sizes_m`; where not all fit, the most."""
     radii_m, middles_m = sizes_m.T
     spheres_m = _FRAME_MARGIN * np.hypot(radii_m, middles_m)
     most_m = np.empty((0, 2))
@@ -100,14 +100,14 @@ def strew(
     keep_out_m: Floats,
     rng: np.random.Generator,
 ) -> Floats:
-    """Return places (n, 2) on the disc for rocks, none over another in plan.
+    """Places (n, 2) on the disc for rocks, none over another in plan.
 
     The rocks come largest first. `clustered` draws a centre for each cluster, evenly, and then
     each rock's place round one of them (Thomas 1949); what leaves the disc is drawn anew.
     `keep_out_m` (m, 3) are points x, y and a radius that stay free, the camera's stations.
 
     Raises:
-        InputError: the ground is full; the message tells how many rocks fit.
+        SpecError: the ground is full; the message tells how many rocks fit.
     """
     radii_m = reaches_m(meshes)
     clusters = max(1, round(len(meshes) / spec.cluster_rocks))
@@ -135,18 +135,18 @@ def strew(
 
 
 def _sizes_m(meshes: Sequence[Mesh]) -> Floats:
-    """Return the rocks' radii about the vertical and half their heights, (n, 2)."""
+    """Rocks' radii about the vertical and half their heights, (n, 2)."""
     middles_m = [mesh.vertices_m[:, 2].max() / 2.0 for mesh in meshes]
     return np.column_stack([reaches_m(meshes), middles_m])
 
 
 def reaches_m(meshes: Sequence[Mesh]) -> Floats:
-    """Return the rocks' radii about the vertical through the origin, (n,)."""
+    """Rocks' radii about the vertical through the origin, (n,)."""
     return np.array([np.linalg.norm(mesh.vertices_m[:, :2], axis=1).max() for mesh in meshes])
 
 
 def frustum(camera: RenderCamera, pose: Pose) -> Floats:
-    """Return the four sides of a view as planes (4, 4): n·x + d is the depth inside, in metres.
+    """Four sides of a view as planes (4, 4): n·x + d is the depth inside, in metres.
 
     Where a lens bends the frame's sides, each plane stands where its side comes farthest in.
     """
@@ -164,7 +164,7 @@ def frustum(camera: RenderCamera, pose: Pose) -> Floats:
 
 
 def _over_disc_m(count: int, reach_m: float, rng: np.random.Generator) -> Floats:
-    """Return points (n, 2) evenly over a disc."""
+    """Points (n, 2) evenly over a disc."""
     radius_m = reach_m * np.sqrt(rng.uniform(size=count))
     azimuth_rad = rng.uniform(0.0, 2.0 * np.pi, size=count)
     return np.column_stack([radius_m * np.cos(azimuth_rad), radius_m * np.sin(azimuth_rad)])
@@ -173,7 +173,7 @@ def _over_disc_m(count: int, reach_m: float, rng: np.random.Generator) -> Floats
 def _inside(
     places_m: Floats, middles_m: Floats, sphere_m: float, frustums: Sequence[Floats]
 ) -> NDArray[np.bool_]:
-    """Tell which places keep a sphere round the given heights inside all frustums."""
+    """Mask of places at which spheres at the given heights are inside all frustums."""
     centres = np.column_stack([places_m, middles_m, np.ones(len(places_m))])
     inside = np.ones(len(places_m), dtype=bool)
     for planes in frustums:

@@ -1,4 +1,4 @@
-"""Rock populations by Golombek and Rapp: how many rocks of which diameter."""
+"""Rock populations by Golombek and Rapp: the number of rocks of each diameter."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,17 +14,17 @@ _TABLE = 4000  # diameters at which the counts are tabulated
 
 
 def decay_per_m(k: float) -> float:
-    """Return q = 1.79 + 0.152/k (Golombek and Rapp 1997)."""
+    """Decay constant q = 1.79 + 0.152/k (Golombek and Rapp 1997)."""
     return 1.79 + 0.152 / k
 
 
 def covered_share(diameter_m: float, k: float) -> float:
-    """Return F(D) = k exp(−q D), the share of the ground that rocks of at least D cover."""
+    """Cumulative area F(D) = k exp(−q D): the share of ground covered by rocks of at least D."""
     return float(k * np.exp(-decay_per_m(k) * diameter_m))
 
 
 def number_per_m2(diameter_m: Floats | float, k: float) -> Floats:
-    """Return the number of rocks of at least D on a square metre.
+    """Number of rocks of at least D on a square metre.
 
     The density n(D) = q F(D)/(πD²/4) integrated from D on, N(D) = (4qk/π)(e^(−qD)/D − q E₁(qD)).
     """
@@ -36,16 +36,16 @@ def number_per_m2(diameter_m: Floats | float, k: float) -> Floats:
 
 
 def expected_count(spec: PopulationSpec) -> float:
-    """Return the mean number of rocks between d_min_m and d_max_m on the disc."""
+    """Mean number of rocks between d_min_m and d_max_m on the disc."""
     ends = number_per_m2(np.array([spec.d_min_m, spec.d_max_m]), spec.k)
     return float((ends[0] - ends[1]) * np.pi * spec.radius_m**2)
 
 
 def draw_diameters_m(spec: PopulationSpec, *, rng: np.random.Generator) -> Floats:
-    """Return the diameters of a Poisson number of rocks, (n,), longest first.
+    """Diameters of a Poisson number of rocks, (n,), longest first.
 
     Raises:
-        InputError: more rocks are expected than a scene can hold, or none came.
+        SpecError: more rocks are expected than a scene can hold, or none came.
     """
     mean = expected_count(spec)
     count = int(rng.poisson(mean)) if mean <= MAX_ROCKS else MAX_ROCKS + 1

@@ -1,4 +1,4 @@
-"""Scenes: a ground, the rocks that lie on it, the camera and its stations."""
+"""Scene model: a ground, the rocks that lie on it, the camera and its stations."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ _FOOT = 0.15  # vertices in this lowest share of a rock's height are its foot
 
 @dataclass(frozen=True, eq=False)
 class PlacedRock:
-    """A rock and where it lies."""
+    """Placed rock: a rock and its pose in the world."""
 
     rock: RockModel
     model_to_world: Floats  # (3, 3) rotation
@@ -36,7 +36,7 @@ class PlacedRock:
 
 @dataclass(frozen=True, eq=False)
 class _Standing:
-    """A rock that has settled, on the vertical through the origin."""
+    """Settled rock, on the vertical through the origin."""
 
     rock: RockModel
     turn: Floats  # (3, 3), model to world
@@ -46,7 +46,7 @@ class _Standing:
 
 @dataclass(frozen=True, eq=False)
 class SceneModel:
-    """Rocks on the ground, the camera and its stations."""
+    """Scene model: rocks on the ground, the camera and its stations."""
 
     rocks: tuple[PlacedRock, ...]
     camera: RenderCamera
@@ -55,12 +55,12 @@ class SceneModel:
 
 
 def build_scene(spec: SceneSpec, index: int) -> SceneModel:
-    """Return scene `index` of a dataset, a function of its arguments alone.
+    """Scene `index` of a dataset, a function of its arguments alone.
 
     What can be switched on draws from generators of its own, so that it does not change the rest.
 
     Raises:
-        InputError: the rocks do not fit.
+        SpecError: the rocks do not fit.
     """
     rng = np.random.default_rng([spec.seed, index])
     camera, poses = camera_of(spec.camera), stations(spec.camera, spec.views)
@@ -98,7 +98,7 @@ def _child(spec: SceneSpec, index: int, key: int) -> np.random.Generator:
 
 
 def _population(spec: SceneSpec, index: int) -> list[RockModel]:
-    """Return a population's rocks, largest first; D is the mean of length and width, a + b."""
+    """Population's rocks, largest first; D is the mean of length and width, a + b."""
     rng = _child(spec, index, _POPULATION)
     rocks = []
     for diameter_m in draw_diameters_m(spec.population, rng=rng):
@@ -116,12 +116,12 @@ def _population(spec: SceneSpec, index: int) -> list[RockModel]:
 
 
 def _feet_m(poses: Sequence[Pose]) -> Floats:
-    """Return the places below the stations with the room to keep there, (n, 3)."""
+    """Places below the stations with the room to keep there, (n, 3)."""
     return np.array([[*pose.position_m()[:2], _ROOM_M] for pose in poses])
 
 
 def _onto(ground: Terrain) -> Floats:
-    """Return the rotation that lays what stands upright onto the slope."""
+    """Rotation that lays what stands upright onto the slope."""
     return shortest_turn(np.array([0.0, 0.0, 1.0]), ground.normal())
 
 
@@ -132,7 +132,7 @@ def _stood(
     rng: np.random.Generator,
     falling: np.random.Generator | None,
 ) -> _Standing:
-    """Return a rock settled and turned onto the slope, on the vertical through the origin."""
+    """Rock settled and turned onto the slope, on the vertical through the origin."""
     _, turn, height_m = settle(rock, yaw_rad=rng.uniform(0.0, 2.0 * np.pi), rng=falling)
     if ground.gradient.any():
         turn = _onto(ground) @ turn
@@ -143,7 +143,7 @@ def _stood(
 def _refuse_crowd(
     spec: SceneSpec, yard: PlacementArea, ground: Terrain, *, rng: np.random.Generator
 ) -> None:
-    """Raise InputError if by far not all rocks fit: a few are made and laid over and over.
+    """Raise SpecError if by far not all rocks fit: a few are made and laid over and over.
 
     With the scene's own seed they are of the scene's own forms.
     """
@@ -160,7 +160,7 @@ def _lay(
     burial: float,
     albedo: float,
 ) -> PlacedRock:
-    """Return a rock lying at a place: on the plane, in ripples to the mean depth of its foot.
+    """Rock lying at a place: on the plane, in ripples to the mean depth of its foot.
 
     `burial` is the share of its height above the lowest point that sinks below the ground.
     """

@@ -1,4 +1,4 @@
-"""How a rock lies: the side it rests on, how deep it is buried, and what share of it."""
+"""Settling of rocks: the side that a rock rests on, and the share of it that is buried."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,7 @@ _ONE_PLANE = 1e-6  # hull facets whose normals differ less are one side
 def settle(
     rock: RockModel, *, yaw_rad: float, rng: np.random.Generator | None = None
 ) -> tuple[RockModel, Floats, float]:
-    """Return a rock, the rotation in which it lies stably, and its centroid's height.
+    """Rock, the rotation in which it lies stably, and its centroid's height.
 
     The side of the convex hull nearest to the centroid goes down: the lowest place the centroid
     can take, so the body cannot roll. With `rng` the rock falls from a random attitude instead,
@@ -29,7 +29,7 @@ def settle(
 
 
 def _rolled(hull: ConvexHull, rng: np.random.Generator) -> int:
-    """Return the side on which a body comes to rest that falls from a random attitude.
+    """Side on which a body comes to rest that falls from a random attitude.
 
     It meets the ground with the side below its centroid, the origin, and topples over an edge as
     long as the next side lets the centroid sink: down the distances d of the hull's planes.
@@ -48,7 +48,7 @@ def _rolled(hull: ConvexHull, rng: np.random.Generator) -> int:
 
 
 def buried_fraction(mesh: Mesh, clearances_m: Floats) -> float:
-    """Return the share of a body's volume below the ground, given its vertices' heights over it.
+    """Share of a body's volume below the ground, given its vertices' heights over it.
 
     Heights over the ground instead of z are a shear, which keeps volumes. By Gauss the volume
     above is ∮ max(z, 0) n_z dA, and over a triangle in which z is linear that is its signed area
@@ -66,7 +66,7 @@ def buried_fraction(mesh: Mesh, clearances_m: Floats) -> float:
 
 
 def mean_above(values: Floats) -> Floats:
-    """Return the mean of max(z, 0) over triangles with linear z and corner values (n, 3).
+    """Mean of max(z, 0) over triangles with linear z and corner values (n, 3).
 
     One corner z₀ > 0 over z₁, z₂ <= 0 leaves a triangle of the share z₀/(z₀ − z₁) · z₀/(z₀ − z₂)
     whose mean is z₀/3; two above are all of z plus the same of −z.
@@ -87,7 +87,7 @@ def _tip(peak: Floats, second: Floats, third: Floats) -> Floats:
 
 
 def shortest_turn(start: Floats, end: Floats) -> NDArray[np.float64]:
-    """Return the rotation (3, 3) by the least angle that takes one unit vector to another."""
+    """Rotation (3, 3) by the least angle that takes one unit vector to another."""
     cosine = float(start @ end)
     if cosine < -1.0 + 1e-12:
         helper = np.eye(3)[np.argmin(np.abs(start))]

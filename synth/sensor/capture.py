@@ -17,7 +17,7 @@ def sensor_of(spec: SceneSpec) -> Sensor:
     """Sensor of a spec, which its camera preset can carry.
 
     Raises:
-        InputError: the sensor needs two eyes and the preset has one.
+        SpecError: the sensor needs two eyes and the preset has one.
     """
     sensor = find_sensor(spec.noise.kind)
     if sensor.needs_baseline and PRESETS[spec.camera.preset].baseline_m is None:
@@ -39,12 +39,12 @@ def capture_view(
     stage: Stage,
     renderer: Renderer,
 ) -> Capture:
-    """What the sensor measures in view `number` of a scene, a function of spec and numbers.
+    """Capture of view `number` of a scene, a function of spec and numbers.
 
     Each use of chance has a stream of its own, so that range noise does not change the image.
 
     Raises:
-        InputError: the sensor's capture is not of its own folders or of the view's size.
+        SpecError: the sensor's capture is not of its own folders or of the view's size.
     """
     sensor = sensor_of(spec)
     picture: Picture = view.image
@@ -70,7 +70,7 @@ def capture_view(
 
 
 def _check(capture: Capture, sensor: Sensor, view: RenderedView) -> None:
-    """Raise InputError where a sensor does not return what its record says."""
+    """Raise SpecError where a sensor does not return what its record says."""
     if set(capture.pictures) != set(sensor.pictures):
         raise SpecError(
             f"sensor {sensor.name!r}: pictures: expected {sorted(sensor.pictures)}, "

@@ -1,4 +1,4 @@
-"""From light to grey levels: exposure, shot and read noise, bits, JPEG."""
+"""Exposure: from light to grey levels, with shot and read noise, bits and JPEG."""
 
 import cv2
 import numpy as np
@@ -14,7 +14,7 @@ _SHIFT = 4  # 12 bits stand in the upper bits of 16, so that white is white to a
 def take_picture(
     light: NDArray[np.floating], sensor: SensorSpec, *, rng: np.random.Generator
 ) -> Picture:
-    """Return the grey levels, (rows, cols), of light where 1 is white.
+    """Grey levels, (rows, cols), of light where 1 is white.
 
     A pixel collects Poisson(L e N) electrons of the full well N at exposure e, plus normal read
     noise; level = round((2^bits − 1) electrons/N), clipped. 12 bits are returned times 16, in
@@ -37,6 +37,6 @@ def take_picture(
 
 
 def eight_bits(picture: Picture) -> NDArray[np.uint8]:
-    """Return a picture's upper eight bits."""
+    """Picture's upper eight bits."""
     shift = 0 if picture.dtype == np.uint8 else 8
     return np.asarray(picture >> shift, dtype=np.uint8)

@@ -1,4 +1,4 @@
-"""Where stereo finds nothing: surfaces that one eye alone sees, and surfaces without texture."""
+"""Holes of stereo: half-occluded surfaces, and surfaces without texture."""
 
 import cv2
 import numpy as np
@@ -11,7 +11,7 @@ _STEP_PX = 1.0  # a surface nearer by more than this disparity hides what is beh
 
 
 def half_occluded(disparity_px: Floats) -> Mask:
-    """Tell which left pixels, (rows, cols), the right eye does not see.
+    """Half-occlusion mask: left pixels, (rows, cols), that the right eye does not see.
 
     Each pixel lands d columns to the left in the right image, between two of its columns, and
     claims both; the greatest disparity wins a column. A pixel is hidden where both of its columns
@@ -34,7 +34,7 @@ def half_occluded(disparity_px: Floats) -> Mask:
 
 
 def contrast(light: NDArray[np.floating], window_px: int) -> Floats:
-    """Return the RMS change from a column to the next over a window, grey levels of 255.
+    """RMS change from a column to the next over a window, grey levels of 255.
 
     Only changes along the row tell a match from its neighbours.
     """

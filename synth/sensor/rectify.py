@@ -1,4 +1,4 @@
-"""Straightening what a lens bends: pictures before they are matched, and the way back."""
+"""Rectification: straight images of a lens before they are matched, and the way back."""
 
 from dataclasses import replace
 from functools import lru_cache
@@ -26,7 +26,7 @@ _SAME_RAY = 1e-6  # of x/z: a lens that folds sends a second ray to the same pla
 
 
 class Rectification:
-    """A camera with a lens, and the pinhole of its focal length whose frame holds all it sees.
+    """Rectification of a camera with a lens to a pinhole whose frame holds all that it sees.
 
     Both eyes have the same lens, so in two pictures of the pinhole a point lies in the same row
     and its columns differ by the disparity f B/Z.
@@ -55,7 +55,7 @@ class Rectification:
         self._back = _places(self.pinhole, *undistorted(camera, *pixel_rays(camera)))
 
     def straight_picture(self, picture: Bytes) -> Bytes:
-        """Return a picture, (rows, cols), as the pinhole takes it.
+        """Picture, (rows, cols), as the pinhole takes it.
 
         Where nothing is seen the frame's border is repeated: a black frame would be matched.
         """
@@ -65,21 +65,21 @@ class Rectification:
         return np.asarray(found, dtype=np.uint8)
 
     def straight_disparity_px(self, disparity_px: Floats) -> Floats:
-        """Return the lens's disparities at the pinhole's pixels, (rows, cols); NaN where unseen."""
+        """Lens's disparities at the pinhole's pixels, (rows, cols); NaN where unseen."""
         found = _looked_up(disparity_px, self._column, self._row)
         return np.where(self.seen, found, np.nan)
 
     def bent_disparity_px(self, disparity_px: Floats) -> Floats:
-        """Return the pinhole's disparities, (rows, cols), at the lens's pixels."""
+        """Pinhole's disparities, (rows, cols), at the lens's pixels."""
         return _looked_up(disparity_px, *self._back)
 
     def bent_mask(self, mask: Mask) -> Mask:
-        """Return a mask of the pinhole's pixels at the lens's, the nearest one's."""
+        """Mask of the pinhole's pixels at the lens's, the nearest one's."""
         found = cv2.remap(mask.astype(np.uint8), *self._back, cv2.INTER_NEAREST)
         return np.asarray(found > 0)
 
     def outside_right(self, disparity_px: Floats) -> Mask:
-        """Tell which of the pinhole's pixels the right lens's frame does not hold."""
+        """Mask of the pinhole's pixels that the right lens's frame does not hold."""
         column = np.arange(disparity_px.shape[1]) - np.nan_to_num(disparity_px)
         landing = np.rint(column).astype(np.int64)
         clipped = np.clip(landing, 0, disparity_px.shape[1] - 1)
@@ -88,14 +88,14 @@ class Rectification:
 
 @lru_cache(maxsize=1)
 def rectification_of(camera: RenderCamera) -> Rectification:
-    """Return a camera's rectification; the last one is kept, since all views have one camera."""
+    """Camera's rectification; the last one is kept, since all views have one camera."""
     return Rectification(camera)
 
 
 def _places(
     camera: RenderCamera, across: Reals, down: Reals
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Return columns and rows of rays that the lens has bent already, as cv2.remap takes them."""
+    """Columns and rows of rays that the lens has bent already, as cv2.remap takes them."""
     across, down = np.broadcast_arrays(across, down)
     column, row = camera.cx + camera.fx * across, camera.cy + camera.fy * down
     return column.astype(np.float32), row.astype(np.float32)
@@ -104,7 +104,7 @@ def _places(
 def _looked_up(
     disparity_px: Floats, column: NDArray[np.float32], row: NDArray[np.float32]
 ) -> Floats:
-    """Return disparities between pixels: linear on a surface, the nearest at edges and holes."""
+    """Disparities between pixels: linear on a surface, the nearest at edges and holes."""
     values = disparity_px.astype(np.float32)
     known = np.nan_to_num(values, nan=_HOLE_PX)
     box = np.ones((3, 3), dtype=np.uint8)

@@ -13,22 +13,22 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Rig:
-    """Two equal cameras with parallel axes; the right one stands a baseline along x."""
+    """Stereo rig: equal cameras with parallel axes; the right one a baseline along x."""
 
     focal_px: float
     baseline_m: float
 
     def disparity_px(self, depth_m: Floats) -> Floats:
-        """Return d = f B / Z, the column in the left image less that in the right; NaN stays."""
+        """Disparity d = f B / Z, the column in the left image less that in the right; NaN stays."""
         return np.asarray(self.focal_px * self.baseline_m / depth_m)
 
     def depth_m(self, disparity_px: Floats) -> Floats:
-        """Return Z = f B / d, NaN where the disparity is not positive."""
+        """Depth Z = f B / d, NaN where the disparity is not positive."""
         known = np.where(disparity_px > 0.0, disparity_px, np.nan)
         return np.asarray(self.focal_px * self.baseline_m / known)
 
     def depth_sd_m(self, depth_m: Floats, disparity_sd_px: float) -> Floats:
-        """Return σ_Z = Z² σ_d / (f B), the first order of Z = f B / d."""
+        """Depth error σ_Z = Z² σ_d / (f B), the first order of Z = f B / d."""
         return np.asarray(depth_m**2 * disparity_sd_px / (self.focal_px * self.baseline_m))
 
 
@@ -36,7 +36,7 @@ def rig_of(preset: str) -> Rig:
     """Stereo rig of a camera preset.
 
     Raises:
-        InputError: the preset has one eye.
+        SpecError: the preset has one eye.
     """
     found = PRESETS[preset]
     if found.baseline_m is None:

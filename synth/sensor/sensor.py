@@ -26,7 +26,7 @@ COMMON_FOLDERS = ("gray", "depth", "depth_true", "labels", "mask", "mask_visib",
 
 @dataclass(frozen=True, eq=False)
 class Capture:
-    """What a sensor measured in one view."""
+    """Measurement of one view by a sensor."""
 
     picture: Picture  # (rows, cols), 8 bits, or 12 in the upper bits of 16
     depth_m: Floats  # (rows, cols), z-depth of the pixels' centres, NaN in holes
@@ -35,7 +35,7 @@ class Capture:
 
 @dataclass(frozen=True, eq=False)
 class SensorInput:
-    """What a sensor is given of one view: the exact view, its image, the scene to see more of."""
+    """Input of a sensor: the exact view, its image, and the scene to see more of."""
 
     view: RenderedView
     picture: Picture  # (rows, cols), the image as exposed, with the sensor's noise
@@ -66,7 +66,7 @@ class SensorInput:
 
 @dataclass(frozen=True, eq=False)
 class Sensor:
-    """A range sensor.
+    """Range sensor.
 
     `capture` is a function of a view, its random numbers and the options alone.
     """
@@ -89,7 +89,7 @@ def find_sensor(name: str) -> Sensor:
     """Sensor of a name.
 
     Raises:
-        InputError: no sensor has the name, or what has it is no `Sensor`.
+        SpecError: no sensor has the name, or what has it is no `Sensor`.
     """
     found = SENSORS.find(name)
     if not isinstance(found, Sensor):
@@ -101,7 +101,7 @@ def register_sensor(sensor: Sensor) -> Sensor:
     """Add a sensor to this process and to the worker processes that it starts.
 
     Raises:
-        InputError: the name is taken by a sensor of the package or of an entry point, or a folder
+        SpecError: the name is taken by a sensor of the package or of an entry point, or a folder
             by the dataset's own images.
     """
     taken = [name for name in sensor.pictures if name in COMMON_FOLDERS]

@@ -26,7 +26,7 @@ _SHIFT_BITS = 8
 
 @dataclass(frozen=True, eq=False)
 class Drawing:
-    """Shapes in rows; label k + 1 is the k-th of the series."""
+    """Drawing of shapes in rows; label k + 1 is the k-th of the series."""
 
     image: NDArray[np.uint8]  # (rows, cols)
     labels: NDArray[np.uint16]  # (rows, cols)
@@ -42,7 +42,7 @@ def draw_series(
     columns: int | None = None,
     jitter_rms_px: float = JITTER_RMS_PX,
 ) -> Drawing:
-    """Return shapes in rows of so many columns (all in one by default), drawn by unsteady pen.
+    """Shapes in rows of so many columns (all in one by default), drawn by unsteady pen.
 
     The pen strays from the exact outline along its normal by a periodic jitter of known RMS and
     least wavelength; the label is what the pen enclosed, pixel centres inside. The truth is the
@@ -89,7 +89,7 @@ def draw_named_series(
     """Shapes of a series and their drawing, a function of the arguments alone.
 
     Raises:
-        InputError: an unknown series, or a count, values or a jitter out of range.
+        SpecError: an unknown series, or a count, values or a jitter out of range.
     """
     if not 0.0 <= jitter_rms_px <= MAX_JITTER_PX:
         raise SpecError(
@@ -118,7 +118,7 @@ def _truth(index: int, shape: Shape, jitter_rms_px: float) -> dict[str, float]:
 
 
 def _evenly_spaced(points: Floats) -> Floats:
-    """Return a closed outline at steps of half a pixel along its length."""
+    """Closed outline at steps of half a pixel along its length."""
     closed = np.vstack([points, points[:1]])
     along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(closed, axis=0), axis=1))])
     even = np.arange(0.0, along[-1], 0.5)
@@ -126,7 +126,7 @@ def _evenly_spaced(points: Floats) -> Floats:
 
 
 def _unsteady(points: Floats, rms_px: float, rng: np.random.Generator) -> Floats:
-    """Return an outline with the pen's jitter along its normal, of exact RMS."""
+    """Outline with the pen's jitter along its normal, of exact RMS."""
     harmonics = max(3, int(0.5 * len(points) / _JITTER_WAVELENGTH_PX))
     turn = 2.0 * np.pi * np.arange(len(points)) / len(points)
     jitter = np.zeros(len(points))
@@ -141,7 +141,7 @@ def _unsteady(points: Floats, rms_px: float, rng: np.random.Generator) -> Floats
 
 
 def _inked(pixels: Floats) -> NDArray[np.uint8]:
-    """Return one shape's cell of the picture: filled, its outline drawn."""
+    """One shape's cell of the picture: filled, its outline drawn."""
     fine = np.full((_CELL_PX * _SUBPIXELS, _CELL_PX * _SUBPIXELS), _PAPER, dtype=np.uint8)
     subpixels = (pixels + 0.5) * _SUBPIXELS - 0.5
     fixed = np.rint(subpixels * 2**_SHIFT_BITS).astype(np.int32).reshape(-1, 1, 2)

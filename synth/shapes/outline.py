@@ -15,7 +15,7 @@ _SLACK = 1e-10
 
 @dataclass(frozen=True, eq=False)
 class RoundedPolygon:
-    """The points within a radius of a convex polygon."""
+    """Rounded polygon: the points within a radius of a convex polygon."""
 
     corners_px: Floats  # (n, 2), anticlockwise, x right and y up
     radius_px: float
@@ -25,20 +25,20 @@ class RoundedPolygon:
         self.corners_px.setflags(write=False)
 
     def area_px2(self) -> float:
-        """Return A₀ + L₀r + πr² (Steiner)."""
+        """Area A₀ + L₀r + πr² (Steiner)."""
         r = self.radius_px
         return polygon_area(self.corners_px) + _length(self.corners_px) * r + np.pi * r**2
 
     def perimeter_px(self) -> float:
-        """Return L₀ + 2πr (Steiner)."""
+        """Perimeter L₀ + 2πr (Steiner)."""
         return _length(self.corners_px) + 2.0 * np.pi * self.radius_px
 
     def roundness(self) -> float:
-        """Return r/(r_in + r): the corners' radius over the largest inscribed disc's (Wadell)."""
+        """Roundness r/(r_in + r), the corners' radius over the inscribed disc's (Wadell)."""
         return self.radius_px / (largest_disc_px(self.corners_px) + self.radius_px)
 
     def joints_px(self) -> Floats:
-        """Return where each corner's arc starts and ends, (n, 2, 2), anticlockwise."""
+        """Start and end of each corner's arc, (n, 2, 2), anticlockwise."""
         following = np.roll(self.corners_px, -1, axis=0) - self.corners_px
         normals = np.column_stack([following[:, 1], -following[:, 0]])
         normals /= np.linalg.norm(normals, axis=1, keepdims=True)
@@ -46,7 +46,7 @@ class RoundedPolygon:
         return np.asarray(self.corners_px[:, None] + arms)
 
     def outline_px(self) -> Floats:
-        """Return points on the outline, (n, 2), anticlockwise, its arcs in fine steps."""
+        """Points on the outline, (n, 2), anticlockwise, its arcs in fine steps."""
         edges = np.roll(self.corners_px, -1, axis=0) - self.corners_px
         bearing_rad = np.unwrap(np.arctan2(edges[:, 1], edges[:, 0])) - np.pi / 2.0
         points = []
@@ -61,14 +61,14 @@ class RoundedPolygon:
 
 
 def polygon_area(corners: Floats) -> float:
-    """Return the signed area of a polygon (n, 2), positive anticlockwise (Gauss)."""
+    """Signed area of a polygon (n, 2), positive anticlockwise (Gauss)."""
     following = np.roll(corners, -1, axis=0)
     crosses = corners[:, 0] * following[:, 1] - corners[:, 1] * following[:, 0]
     return float(crosses.sum() / 2.0)
 
 
 def axis_ratio(corners: Floats) -> float:
-    """Return the minor over the major axis of the ellipse with a polygon's second moments."""
+    """Axis ratio: minor over major axis of the ellipse with a polygon's second moments."""
     following = np.roll(corners, -1, axis=0)
     crosses = corners[:, 0] * following[:, 1] - corners[:, 1] * following[:, 0]
     total = corners + following
@@ -82,7 +82,7 @@ def axis_ratio(corners: Floats) -> float:
 
 
 def rectangle(corners: Floats, *, margin: float = 0.0) -> tuple[float, float, float]:
-    """Return the smallest rectangle round a convex polygon: long side, short side, bearing (rad).
+    """Smallest rectangle round a convex polygon: long side, short side, bearing (rad).
 
     One of its sides is flush with an edge of the polygon (Freeman and Shapira 1975). The bearing
     is the long side's. With a margin each corner is thickened to a disc of that radius, which
@@ -102,7 +102,7 @@ def rectangle(corners: Floats, *, margin: float = 0.0) -> tuple[float, float, fl
 
 
 def largest_disc_px(corners_px: Floats) -> float:
-    """Return the radius of a largest disc inside a convex polygon.
+    """Radius of a largest disc inside a convex polygon.
 
     A largest disc touches three edges at least (two parallel ones allow it to be pushed to a
     third): of the discs that touch three given edges, the largest that keeps inside all.

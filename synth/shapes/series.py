@@ -30,7 +30,7 @@ _CHART_SIDES = np.linspace(0.30, 0.94, 9)  # short over long side, the chart's c
 
 @dataclass(frozen=True, eq=False)
 class Shape:
-    """One shape of a series."""
+    """Shape of a series."""
 
     outline: RoundedPolygon
     knob: float  # the series' own: short over long side for `sphericity`, else roundness
@@ -39,7 +39,7 @@ class Shape:
 
 @dataclass(frozen=True)
 class Series:
-    """A series: how its shapes are made from the knob's values."""
+    """Series: how its shapes are made from the values of its parameter."""
 
     make: Callable[[Floats, np.random.Generator], list[Shape]]
     ends: tuple[float, float]  # of the knob, when it rises in even steps
@@ -53,13 +53,13 @@ def shape_series(
     knobs: Sequence[float] | None = None,
     rng: np.random.Generator,
 ) -> list[Shape]:
-    """Return the shapes of a series in order: most angular, or most oblong, first.
+    """Shapes of a series in order: most angular, or most oblong, first.
 
     The knob rises in `count` even steps (4 by default), or takes the values `knobs`. The chart
     `krumbein` has 81 shapes, always.
 
     Raises:
-        InputError: an unknown series, a count out of range, values out of range, or both given.
+        SpecError: an unknown series, a count out of range, values out of range, or both given.
     """
     if series == CHART:
         if knobs is not None or count not in (None, _CLASSES.size * _CHART_SIDES.size):
@@ -86,7 +86,7 @@ def shape_series(
 
 
 def roundness_series(knobs: Floats, rng: np.random.Generator) -> list[Shape]:
-    """Return one random polygon with ever rounder corners in ever the same rectangle.
+    """Roundness series: one random polygon with ever rounder corners in the same rectangle.
 
     The knob is roundness. The polygon is stretched along the rectangle's sides so that the
     rounded shape fills it: sides of a sum are sums of sides.
@@ -95,7 +95,7 @@ def roundness_series(knobs: Floats, rng: np.random.Generator) -> list[Shape]:
 
 
 def both_series(knobs: Floats, rng: np.random.Generator) -> list[Shape]:
-    """Return one random polygon, angular and oblong at first, round and square at last.
+    """Series of both: one random polygon, angular and oblong at first, round and square at last.
 
     The knob is roundness; short over long side rises with it, in proportion.
     """
@@ -103,7 +103,7 @@ def both_series(knobs: Floats, rng: np.random.Generator) -> list[Shape]:
 
 
 def chart(rng: np.random.Generator) -> list[Shape]:
-    """Return 81 random shapes, row by row: roundness 0.1 to 0.9, oblong to square in each row.
+    """Chart of 81 random shapes, row by row: roundness 0.1 to 0.9, oblong to square in each row.
 
     In the manner of Krumbein's (1941) chart of pebbles by roundness, but drawn anew, every
     outline of its own polygon, and every roundness and side known exactly.
@@ -116,7 +116,7 @@ def chart(rng: np.random.Generator) -> list[Shape]:
 
 
 def sphericity_series(knobs: Floats, rng: np.random.Generator) -> list[Shape]:
-    """Return rounded rectangles from oblong to square, all of the same roundness, a little turned.
+    """Sphericity series: rounded rectangles from oblong to square, of one roundness, turned a bit.
 
     The largest disc in a rectangle of half sides l ≥ w rounded by r has the radius w + r, so
     r = ρ (w + r) gives the roundness ρ at any length.
@@ -143,7 +143,7 @@ SERIES: Mapping[str, Series] = {
 
 
 def _held(polygon: Floats, roundness: float, ratio: float) -> Shape | None:
-    """Return the polygon rounded to a roundness inside a rectangle of a ratio.
+    """Polygon rounded to a roundness inside a rectangle of a ratio.
 
     Each step turns the polygon into its rectangle and stretches it by the side wanted over the
     side found. The inscribed disc, and with it the rounding, goes with the short side; along the
@@ -168,10 +168,10 @@ def _held(polygon: Floats, roundness: float, ratio: float) -> Shape | None:
 def _settled(
     roundness: Sequence[float], ratios: Sequence[float], rng: np.random.Generator
 ) -> list[Shape]:
-    """Return one random polygon in all those roundnesses and ratios, drawn anew until all settle.
+    """One random polygon in all those roundnesses and ratios, drawn anew until all settle.
 
     Raises:
-        InputError: no polygon of many settles.
+        SpecError: no polygon of many settles.
     """
     for _ in range(_ATTEMPTS):
         polygon = _random_polygon(rng)
@@ -183,7 +183,7 @@ def _settled(
 
 
 def _random_polygon(rng: np.random.Generator) -> Floats:
-    """Return a convex polygon whose corners lie unevenly round an ellipse."""
+    """Convex polygon whose corners lie unevenly round an ellipse."""
     gaps = rng.uniform(0.55, 1.45, size=_CORNERS)
     bearing_rad = rng.uniform(0.0, 2.0 * np.pi) + 2.0 * np.pi * np.cumsum(gaps) / gaps.sum()
     return 0.5 * LONG_SIDE_PX * np.column_stack([np.cos(bearing_rad), 0.75 * np.sin(bearing_rad)])

@@ -1,4 +1,4 @@
-"""A drawing as SVG: what the pen drew, and the exact outlines beside it, hidden."""
+"""SVG of a drawing: what the pen drew, and the exact outlines beside it, hidden."""
 
 from collections.abc import Sequence
 
@@ -22,7 +22,7 @@ def svg_text(
     *,
     shape: tuple[int, ...],
 ) -> str:
-    """Return an SVG of a drawing of `shape` (rows, cols), in pixels.
+    """SVG of a drawing of `shape` (rows, cols), in pixels.
 
     The group `drawn` holds the pen's lines as `rock-1`, `rock-2` and so on; the group `exact`,
     not displayed, the outlines they stray from, in lines and circular arcs. SVG counts from the
@@ -52,7 +52,7 @@ def _polyline(points_px: Floats) -> str:
 
 
 def _arcs(outline: RoundedPolygon, middle_px: Floats) -> str:
-    """Return a rounded polygon's path: an arc at each corner, a line to the next."""
+    """Rounded polygon's path: an arc at each corner, a line to the next."""
     radius = outline.radius_px
     parts: list[str] = []
     for start, end in middle_px + outline.joints_px() * [1.0, -1.0]:

@@ -27,7 +27,7 @@ def write_series(
     """Write image.png, image.svg, labels.png and truth.csv of a series into a folder.
 
     Raises:
-        InputError: an unknown series, a count, values or a jitter out of range, or a folder
+        SpecError: an unknown series, a count, values or a jitter out of range, or a folder
             that is a file or holds other files.
     """
     _check_free(out)
@@ -51,7 +51,7 @@ def write_series(
 
 
 def _check_free(out: Path) -> None:
-    """Raise InputError unless a folder is new, empty or holds an earlier drawing and no more."""
+    """Raise SpecError unless a folder is new, empty or holds an earlier drawing and no more."""
     if out.exists() and not out.is_dir():
         raise SpecError(f"{out}: expected a folder to write to, found a file")
     held = {path.name for path in out.iterdir()} if out.is_dir() else set()

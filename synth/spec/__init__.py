@@ -49,7 +49,7 @@ def load_spec(path: Path) -> SceneSpec:
     """Specification read from a TOML file; keys that it leaves out keep their defaults.
 
     Raises:
-        InputError: the file is missing, is no TOML, or holds a key or value that is not allowed.
+        SpecError: the file is missing, is no TOML, or holds a key or value that is not allowed.
     """
     try:
         table = tomllib.loads(path.read_text(encoding="utf-8"))
@@ -66,7 +66,7 @@ def convert_spec(table: object, *, where: str) -> SceneSpec:
     """Specification converted from plain tables and checked; `where` begins the complaint.
 
     Raises:
-        InputError: a key or value that is not allowed; the message names it.
+        SpecError: a key or value that is not allowed; the message names it.
     """
     try:
         return msgspec.convert(table, SceneSpec)

@@ -22,7 +22,7 @@ _BOUNDS = (("gt", "above"), ("ge", "at least"), ("lt", "below"), ("le", "at most
 
 
 def complaint(table: object, kind: Any) -> str:
-    """Return the first complaint about plain tables that cannot be converted to a struct.
+    """First complaint about plain tables that cannot be converted to a struct.
 
     An unknown key reads `unknown key 'cuont' in [rocks]; did you mean 'count'?`, anything else
     `rocks.count: expected …, found …`. A struct's own `__post_init__` raises ValueError with a
@@ -33,7 +33,7 @@ def complaint(table: object, kind: Any) -> str:
 
 
 def describe(info: inspect.Type) -> str:
-    """Return in words what a type accepts: `an integer from 1 to 500`."""
+    """Description of what a type accepts: `an integer from 1 to 500`."""
     match info:
         case inspect.IntType() | inspect.FloatType():
             number = "an integer" if isinstance(info, inspect.IntType) else "a number"
@@ -55,7 +55,7 @@ def describe(info: inspect.Type) -> str:
 
 
 def _complaint(value: Any, hint: Any, path: str) -> str | None:
-    """Return what is wrong with the value of a key, None if it fits its type."""
+    """Complaint about the value of a key, None if it fits its type."""
     info = inspect.type_info(hint)
     structs = [
         each
@@ -79,7 +79,7 @@ def _complaint(value: Any, hint: Any, path: str) -> str | None:
 
 
 def _of_table(table: Mapping[str, Any], structs: list[inspect.StructType], path: str) -> str | None:
-    """Return what is wrong with a table that is one of several structs, told apart by their tag."""
+    """Complaint about a table that is one of several structs, told apart by their tag."""
     tag_field = structs[0].tag_field
     by_tag = {str(each.tag): each for each in structs}
     info = structs[0]
@@ -109,7 +109,7 @@ def _of_table(table: Mapping[str, Any], structs: list[inspect.StructType], path:
 def _own_complaint(
     table: Mapping[str, Any], kind: type, names: Iterable[str], path: str
 ) -> str | None:
-    """Return what a struct's own check says of a table whose every key fits."""
+    """Complaint of a struct's own check about a table whose every key fits."""
     try:
         msgspec.convert(table, kind)
     except msgspec.ValidationError as error:
@@ -121,7 +121,7 @@ def _own_complaint(
 
 
 def _items(value: Any, hint: Any) -> list[tuple[Any, Any]]:
-    """Return a list's items, each with its type; nothing where the number is wrong."""
+    """Items of a list, each with its type; nothing where the number is wrong."""
     while get_origin(hint) is Annotated:
         hint = get_args(hint)[0]
     if get_origin(hint) not in (tuple, list) or not isinstance(value, list | tuple):

@@ -1,4 +1,4 @@
-"""The knobs of the ground and of how rocks lie on it."""
+"""Parameters of the ground and of how rocks lie on it."""
 
 from typing import Annotated, Literal
 
@@ -8,7 +8,7 @@ from synth.spec.limits import Degrees, Fraction, Positive, PositiveRange, check_
 
 
 class GroundSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """Slope, ripples, pebbles, burial. The defaults are the level plane with rocks on top."""
+    """Ground: slope, ripples, pebbles, burial. By default a level plane with rocks on top."""
 
     slope_deg: Annotated[float, Meta(ge=0, le=30)] = 0.0
     slope_azimuth_deg: Degrees = 0.0  # where it rises, from x towards y
@@ -21,7 +21,7 @@ class GroundSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     resting: Literal["flattest", "stable"] = "flattest"  # lowest centroid; or any stable side
 
     def __post_init__(self) -> None:
-        """Hold the ranges in order, and ripples to slopes that sand can have."""
+        """Require ranges in rising order, and ripples with slopes that sand can have."""
         check_range("pebble_diameter_m", self.pebble_diameter_m)
         check_range("burial", self.burial)
         if self.burial[1] > 0.9:

@@ -1,4 +1,4 @@
-"""The limits that numbers of a spec keep."""
+"""Limits of the numbers in a specification."""
 
 from typing import Annotated
 

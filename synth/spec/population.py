@@ -1,4 +1,4 @@
-"""The knobs of the population: how many rocks of which size lie where."""
+"""Parameters of the population: number, size and layout of rocks."""
 
 from typing import Annotated, Literal
 
@@ -8,11 +8,11 @@ from synth.spec.limits import Positive
 
 
 class PopulationSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """`count` lays rocks.count rocks in every view; `golombek-rapp` fills a disc of ground.
+    """Population: `count` places rocks.count rocks in every view; `golombek-rapp` fills a disc.
 
     Its rocks may be cut by the frame, hidden or out of sight. Their number and diameters, the mean
     of length and width, follow the abundance k; rocks.count, rocks.diameter_m and rocks.series
-    have no say.
+    are ignored.
     """
 
     kind: Literal["count", "golombek-rapp"] = "count"
@@ -25,7 +25,7 @@ class PopulationSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tr
     cluster_rocks: Annotated[float, Meta(ge=1, le=500)] = 12.0  # mean number of rocks in a cluster
 
     def __post_init__(self) -> None:
-        """Hold the diameters in order."""
+        """Require diameters in rising order."""
         if not self.d_min_m < self.d_max_m:
             raise ValueError(
                 f"d_min_m: expected less than d_max_m {self.d_max_m:g}, found {self.d_min_m:g}"

@@ -19,7 +19,7 @@ from synth.spec.wording import expected_one_of
 
 
 class Record(Protocol):
-    """What all records have."""
+    """Record of a registry."""
 
     @property
     def name(self) -> str:
@@ -34,7 +34,7 @@ R = TypeVar("R", bound=Record)
 
 
 class Registry(Generic[R]):
-    """Records by name: the package's own, then entry points', then those registered here."""
+    """Registry of records: the package's own, entry points', and those registered here."""
 
     def __init__(self, what: str, *, group: str, own: Mapping[str, str]) -> None:
         """Take what a record is called, the entry points' group, and name → module:attribute."""
@@ -55,7 +55,7 @@ class Registry(Generic[R]):
         A record of the same name registered before is replaced.
 
         Raises:
-            InputError: the name is taken by a record of the package or of an entry point.
+            SpecError: the name is taken by a record of the package or of an entry point.
         """
         if record.name in self._own or record.name in self._others:
             raise SpecError(f"{self.what} {record.name!r}: expected a new name, found one in use")
@@ -63,10 +63,10 @@ class Registry(Generic[R]):
         return record
 
     def find(self, name: str) -> R:
-        """Return the record of a name.
+        """Record of a name.
 
         Raises:
-            InputError: no record has the name; the message begins with what was expected.
+            SpecError: no record has the name; the message begins with what was expected.
         """
         if name in self._registered:
             return self._registered[name]
@@ -78,10 +78,10 @@ class Registry(Generic[R]):
         return self._loaded[name]
 
     def dump(self) -> bytes:
-        """Return the registered records for another process, which must be able to import them.
+        """Registered records for another process, which must be able to import them.
 
         Raises:
-            InputError: a record is made from functions that no module holds.
+            SpecError: a record is made from functions that no module holds.
         """
         for name, record in self._registered.items():
             try:
@@ -124,10 +124,10 @@ class Registry(Generic[R]):
 
 
 def options_of(what: str, record: Record, given: Mapping[str, Any] | UnsetType) -> Struct | None:
-    """Return a record's own options, from the table `options` of a spec.
+    """Record's own options, from the table `options` of a spec.
 
     Raises:
-        InputError: a key or value that the record does not allow.
+        SpecError: a key or value that the record does not allow.
     """
     if record.options is None:
         if given is not UNSET and given:

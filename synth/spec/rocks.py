@@ -67,7 +67,7 @@ class RealismSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True)
     subdivisions: Annotated[int, Meta(ge=4, le=7)] = 6  # 20 × 4^n facets
 
     def __post_init__(self) -> None:
-        """Hold the ranges in order."""
+        """Require ranges in rising order."""
         for name in (
             "cuts",
             "chips",

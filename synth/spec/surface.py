@@ -1,4 +1,4 @@
-"""The knobs of what surfaces do with light."""
+"""Parameters of surfaces: albedo, dust and photometry."""
 
 from typing import Annotated, Literal
 
@@ -8,7 +8,7 @@ from synth.spec.limits import Fraction, Ratio
 
 
 class SurfaceSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """Albedo, dust and the photometric law of ground and rocks; see docs/scenes.md."""
+    """Surfaces: albedo, dust and the photometric law of ground and rocks; see docs/scenes.md."""
 
     law: Literal["lambert", "lommel-seeliger", "lunar-lambert"] = "lambert"
     lunar_share: Fraction = 0.6  # of Lommel–Seeliger in lunar-lambert

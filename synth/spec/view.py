@@ -1,4 +1,4 @@
-"""The knobs of what is seen: camera, stations and sun."""
+"""Parameters of the view: camera, stations and sun."""
 
 from typing import Annotated, Literal
 
@@ -21,7 +21,7 @@ PresetName = Literal[
 
 
 class CameraSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """The camera and where its mast stands."""
+    """Camera and the place of its mast."""
 
     preset: PresetName = "msl-navcam"
     distance_m: Positive | None = None  # camera to the scene's centre; None: the preset's own
@@ -40,7 +40,7 @@ class CameraSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
 
 
 class ViewsSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """The camera's stations, all looking at camera.target_m but on a pan.
+    """Camera stations, all looking at camera.target_m but on a pan.
 
     `ring`: evenly round the scene's centre. `arc`: evenly over a part of the ring, `start_deg` in
     its middle. `drive-by`: evenly along a straight line that passes the centre on one side, its
@@ -61,7 +61,7 @@ class ViewsSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
 
 
 class SunSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """One sun and a sky."""
+    """Light of one sun and a sky."""
 
     azimuth_deg: Degrees = 140.0  # towards the sun, from x towards y
     elevation_deg: Annotated[float, Meta(gt=0, le=90)] = 48.0

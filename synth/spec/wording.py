@@ -5,20 +5,20 @@ from difflib import get_close_matches
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """Return `; did you mean 'count'?` for the known name most like `name`, or nothing."""
+    """Suggestion `; did you mean 'count'?` of the known name most like `name`, or nothing."""
     close = get_close_matches(name, list(known), n=1)
     return f"; did you mean {close[0]!r}?" if close else ""
 
 
 def expected_one_of(name: object, known: Iterable[str]) -> str:
-    """Return `expected one of a, b, found 'c'`, with the known name that may have been meant."""
+    """Complaint `expected one of a, b, found 'c'`, with the known name that may have been meant."""
     names = list(known)
     wanted = f"one of {', '.join(names)}" if len(names) > 1 else names[0] if names else "none"
     return f"expected {wanted}, found {name!r}{did_you_mean(str(name), names)}"
 
 
 def unknown_name(what: str, name: str, known: Iterable[str], *, place: str = "") -> str:
-    """Return `unknown key 'cuont' in [rocks]; did you mean 'count'?`.
+    """Complaint `unknown key 'cuont' in [rocks]; did you mean 'count'?`.
 
     Without a similar name, all known ones are listed.
     """

@@ -27,7 +27,7 @@ def _grade(
     """One random polyhedron with several half-axes and roundings, drawn until all hold.
 
     Raises:
-        InputError: no polyhedron that holds them was drawn.
+        SpecError: no polyhedron that holds them was drawn.
     """
     for _ in range(_ATTEMPTS):
         cuts = int(rng.integers(spec.cuts[0], spec.cuts[1] + 1))

@@ -1,4 +1,4 @@
-"""What is true of a rock's outline in one view: parallel rays, exact where the form allows."""
+"""Outline truth of a rock in one view: under parallel rays, exact where the form allows."""
 
 from synth.rocks.outlines.record import Form, OutlineTruth, plane_across
 from synth.rocks.outlines.rounded import RoundedHull

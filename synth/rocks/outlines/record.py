@@ -1,4 +1,4 @@
-"""An outline's numbers, the forms that know theirs, and the integrals over polygons."""
+"""Outline truth record, forms whose outlines are known, and integrals over polygons."""
 
 from dataclasses import dataclass
 from typing import Protocol
@@ -11,7 +11,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class OutlineTruth:
-    """The shadow of a body under parallel rays, on a plane across them."""
+    """Truth of an outline: the shadow of a body under parallel rays, on a plane across them."""
 
     area_m2: float
     perimeter_m: float
@@ -21,14 +21,14 @@ class OutlineTruth:
 
 
 class Form(Protocol):
-    """A body in its rock's frame whose outlines are known."""
+    """Form in its rock's frame whose outlines are known."""
 
     def outline(self, across: Floats) -> OutlineTruth:
-        """Return the outline on the plane of two rows of unit vectors across the rays, (2, 3)."""
+        """Outline on the plane of two rows of unit vectors across the rays, (2, 3)."""
 
 
 def plane_across(ray: Floats) -> Floats:
-    """Return two unit vectors, (2, 3), that with the ray (3,) make a right-handed frame."""
+    """Two unit vectors, (2, 3), that with the ray (3,) make a right-handed frame."""
     ray = ray / np.linalg.norm(ray)
     first = np.cross(ray, np.eye(3)[np.argmin(np.abs(ray))])
     first /= np.linalg.norm(first)
@@ -38,7 +38,7 @@ def plane_across(ray: Floats) -> Floats:
 def polygon_outline(
     points_m: Floats, *, roundness: float, roundness_scale: float = 0.0
 ) -> OutlineTruth:
-    """Return the numbers of a polygon (n, 2), anticlockwise (Gauss's formulas)."""
+    """Numbers of a polygon (n, 2), anticlockwise (Gauss's formulas)."""
     following = np.roll(points_m, -1, axis=0)
     crosses = points_m[:, 0] * following[:, 1] - points_m[:, 1] * following[:, 0]
     total = points_m + following
@@ -57,6 +57,6 @@ def polygon_outline(
 
 
 def axis_ratio(covariance_m2: Floats) -> float:
-    """Return the minor over the major axis of the ellipse with these second moments, (2, 2)."""
+    """Axis ratio: minor over major axis of the ellipse with these second moments, (2, 2)."""
     low, high = np.linalg.eigvalsh(covariance_m2)
     return float(np.sqrt(low / high))

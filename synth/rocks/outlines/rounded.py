@@ -1,4 +1,4 @@
-"""The outline of P ⊕ B_r: a rounded polygon, exact."""
+"""Outlines of P ⊕ B_r: rounded polygons, exact."""
 
 from dataclasses import dataclass
 
@@ -16,7 +16,7 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)  # exact to rounding on a
 
 @dataclass(frozen=True, eq=False)
 class RoundedHull:
-    """The points within a radius of a convex polyhedron."""
+    """Rounded hull: the points within a radius of a convex polyhedron."""
 
     vertices_m: Floats  # (n, 3), of the polyhedron
     radius_m: float
@@ -26,11 +26,11 @@ class RoundedHull:
         self.vertices_m.setflags(write=False)
 
     def moved(self, rotation: Floats, translation_m: Floats) -> "RoundedHull":
-        """Return the body turned by a rotation (3, 3), then shifted by a translation (3,)."""
+        """Body turned by a rotation (3, 3), then shifted by a translation (3,)."""
         return RoundedHull(self.vertices_m @ rotation.T + translation_m, self.radius_m)
 
     def outline(self, across: Floats) -> OutlineTruth:
-        """Return the outline Q ⊕ disc, with Q the hull of the projected vertices.
+        """Outline Q ⊕ disc, with Q the hull of the projected vertices.
 
         A projection of a Minkowski sum is the sum of the projections. So the area is
         A₀ + L₀r + πr², the perimeter L₀ + 2πr (Steiner), and every corner has the radius r:
@@ -53,7 +53,7 @@ class RoundedHull:
 
 
 def _covariance_m2(corners_m: Floats, normals: Floats, radius_m: float) -> Floats:
-    """Return the second central moments of Q ⊕ disc over its area, (2, 2), by Gauss and Green.
+    """Second central moments of Q ⊕ disc over its area, (2, 2), by Gauss and Green.
 
     With outward normal n, ∫ x xᵀ dA = ∮ x xᵀ (x·n) ds / 4 and ∫ x dA = ∮ x (x·n) ds / 3: Euler's
     theorem on homogeneous functions, with the divergence theorem.

@@ -1,4 +1,4 @@
-"""The outline of any body that its middle sees whole, from its mesh."""
+"""Outlines of star-shaped bodies from their meshes."""
 
 from dataclasses import dataclass
 
@@ -17,7 +17,7 @@ BEARINGS = 8192  # half as many move every number by less than 1e-3
 
 @dataclass(frozen=True, eq=False)
 class MeshForm:
-    """A body known by its mesh, ready to be seen from many sides."""
+    """Mesh form: a body known by its mesh, ready to be seen from many sides."""
 
     vertices_m: Floats  # (n, 3)
     faces: Ints  # (m, 3)
@@ -25,13 +25,13 @@ class MeshForm:
     sides: Ints  # (k, 2), the faces at each edge
 
     def outline(self, across: Floats) -> OutlineTruth:
-        """Return the outline under parallel rays; see `silhouette`."""
+        """Outline under parallel rays; see `silhouette`."""
         return self.silhouette(across)
 
     def silhouette(
         self, across: Floats, *, camera_m: float | None = None, bearings: int = BEARINGS
     ) -> OutlineTruth:
-        """Return the outline on the plane through the origin, its rows `across` (2, 3).
+        """Outline on the plane through the origin, its rows `across` (2, 3).
 
         Where a face turned to the viewer meets one turned away lies an edge that may be on the
         outline; the outline's radius on a bearing from the origin is the farthest such edge's. So
@@ -56,7 +56,7 @@ class MeshForm:
 
 
 def mesh_form(mesh: Mesh) -> MeshForm:
-    """Return the form of a closed mesh: its edges, each with its two faces."""
+    """Form of a closed mesh: its edges, each with its two faces."""
     faces = mesh.faces
     ends = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
     order = np.argsort(ends @ np.array([len(mesh.vertices_m), 1]), kind="stable")
@@ -69,7 +69,7 @@ def mesh_form(mesh: Mesh) -> MeshForm:
 
 
 def _farthest_m(ends_m: Floats, bearings: int) -> Floats:
-    """Return the greatest radius, (bearings,), at which segments (k, 2, 2) cross each bearing."""
+    """Greatest radius, (bearings,), at which segments (k, 2, 2) cross each bearing."""
     step_rad = 2.0 * np.pi / bearings
     start_rad = np.arctan2(ends_m[:, 0, 1], ends_m[:, 0, 0])
     turn_rad = np.arctan2(ends_m[:, 1, 1], ends_m[:, 1, 0]) - start_rad

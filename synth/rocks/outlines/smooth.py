@@ -1,4 +1,4 @@
-"""The outlines of ellipsoids and superellipsoids."""
+"""Outlines of ellipsoids and superellipsoids."""
 
 from dataclasses import dataclass
 
@@ -15,12 +15,12 @@ DIRECTIONS = 8192  # tangents of a superellipsoid's outline; half as many move i
 
 @dataclass(frozen=True, eq=False)
 class EllipsoidForm:
-    """An ellipsoid along the axes."""
+    """Ellipsoid along the axes."""
 
     half_axes_m: Floats  # (3,)
 
     def outline(self, across: Floats) -> OutlineTruth:
-        """Return the outline, an ellipse p >= q: A = πpq, L = 4pE(1 − q²/p²), exact.
+        """Outline, an ellipse p >= q: A = πpq, L = 4pE(1 − q²/p²), exact.
 
         Its two corners have the radius of curvature q²/p, its inscribed disc q: roundness q/p.
         """
@@ -35,13 +35,13 @@ class EllipsoidForm:
 
 @dataclass(frozen=True, eq=False)
 class SuperellipsoidForm:
-    """The body (|x/a|^p + |y/b|^p)^(q/p) + |z/c|^q <= 1 with p, q >= 2."""
+    """Superellipsoid (|x/a|^p + |y/b|^p)^(q/p) + |z/c|^q <= 1 with p, q >= 2."""
 
     half_axes_m: Floats  # (3,)
     exponents: tuple[float, float]  # p, round the z axis; q, towards it
 
     def contact_m(self, directions: Floats) -> Floats:
-        """Return the points (n, 3) of the surface whose outward normals are given, (n, 3).
+        """Points (n, 3) of the surface whose outward normals are given, (n, 3).
 
         They are the gradient of the support function
         h(u) = ((|au|^P + |bv|^P)^(Q/P) + |cw|^Q)^(1/Q) with P = p/(p − 1), Q = q/(q − 1).
@@ -59,7 +59,7 @@ class SuperellipsoidForm:
         )
 
     def outline(self, across: Floats, *, directions: int = DIRECTIONS) -> OutlineTruth:
-        """Return the outline through the contact points of many tangents, all on it.
+        """Outline through the contact points of many tangents, all on it.
 
         Corners are the places of least radius of curvature dL/dθ that is less than the inscribed
         disc's radius; the outline is symmetric about its middle, so that disc's radius is the

@@ -1,4 +1,4 @@
-"""The roundness of a rough outline: Wadell's, of the outline smoothed at a stated scale."""
+"""Roundness of rough outlines: Wadell's, of the outline smoothed at a stated scale."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ _DISC_POINTS = 512  # of those that bound the inscribed disc: their chords take 
 
 
 def smoothed_roundness(points_m: Floats) -> float:
-    """Return Wadell's roundness of a polygon (n, 2), anticlockwise, at the scale `SCALE`.
+    """Wadell's roundness of a polygon (n, 2), anticlockwise, at the scale `SCALE`.
 
     The outline, as a function of its length, is smoothed by a normal distribution of deviation
     SCALE √(A/π). Corners are the peaks of its curvature above the inscribed disc's, 1/R. Each has
@@ -35,7 +35,7 @@ def smoothed_roundness(points_m: Floats) -> float:
 
 
 def inscribed_radius_m(points_m: Floats) -> float:
-    """Return the radius of the largest disc inside a closely dotted outline (n, 2).
+    """Radius of the largest disc inside a closely dotted outline (n, 2).
 
     It touches three points and holds none: it is a Delaunay triangle's circumcircle. Its radius
     is between the outline's area over its perimeter and the radius of the disc of its area.
@@ -63,7 +63,7 @@ def inscribed_radius_m(points_m: Floats) -> float:
 
 
 def _smoothed(points_m: Floats) -> tuple[Floats, Floats]:
-    """Return the smoothed outline at equal steps of the outline's length, and its curvature."""
+    """Smoothed outline at equal steps of the outline's length, and its curvature."""
     places = points_m[:, 0] + 1j * points_m[:, 1]
     closed = np.append(places, places[0])
     lengths_m = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(closed)))])
@@ -84,7 +84,7 @@ def _area_m2(points_m: Floats) -> float:
 
 
 def _inside(places_m: Floats, points_m: Floats) -> NDArray[np.bool_]:
-    """Tell which places (k, 2) a polygon (n, 2) holds: a ray from them crosses it oddly often."""
+    """Mask of places (k, 2) inside a polygon (n, 2): a ray from them crosses it oddly often."""
     start, span = points_m, np.roll(points_m, -1, axis=0) - points_m
     above = points_m[:, 1] > places_m[:, 1, None]
     crossed = above != np.roll(above, -1, axis=1)

@@ -3,7 +3,7 @@
 import argparse
 import sys
 
-from validation.selfcheck.mutations import MUTATIONS, prepare_bench
+from validation.mutations import MUTATIONS, prepare_bench
 from validation.suite.suite import Suite, load_suite
 
 

@@ -15,8 +15,8 @@ from validation.execution.dispatch import dispatch, run_packed
 from validation.execution.executors import local
 from validation.execution.run import prepare
 from validation.execution.store import UnitStore, unit_key
-from validation.execution.units import Unit, units_of
-from validation.kinds.scoring import score_values
+from validation.execution.units import AnyUnit, units_of
+from validation.scores.scoring import score_values
 from validation.suite.suite import Suite, load_suite
 
 COPIES = 250  # of the scenes measured, to see how scoring grows
@@ -44,7 +44,7 @@ def yard_of(scenes: int) -> Suite:
     return prepare(msgspec.structs.replace(suite, experiments=(yard,)))
 
 
-def throughput(keyed: list[tuple[str, Unit]], folder: Path, *, jobs: int) -> UnitStore:
+def throughput(keyed: list[tuple[str, AnyUnit]], folder: Path, *, jobs: int) -> UnitStore:
     """Run units with so many workers, already warm; print the scenes an hour, time and peak."""
     store = UnitStore(folder, keep=False)
     with local(jobs) as executor:
@@ -72,7 +72,7 @@ def _state() -> tuple[float, float]:
     return time.process_time(), peak_mb()
 
 
-def growth(suite: Suite, keyed: list[tuple[str, Unit]], store: UnitStore) -> None:
+def growth(suite: Suite, keyed: list[tuple[str, AnyUnit]], store: UnitStore) -> None:
     """Print what storing, reading and scoring cost, and how large a table of records is."""
     keys = [key for key, _ in keyed]
     sizes = [store.path(key).stat().st_size for key in keys]

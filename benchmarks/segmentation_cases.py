@@ -21,10 +21,10 @@ from rockshape.observation import Observation
 from rockshape.segmentation import FINDERS
 from synth.dataset.write import write_common, write_scene
 from synth.render import choose_backend
-from validation.kinds.segmentation.scores import f1
+from validation.kinds.segmentation.judge import f1
+from validation.kinds.segmentation.spec import SegmentationExperiment
 from validation.kinds.segmentation.work import draw
 from validation.records.truth import read_instances
-from validation.suite.experiments import SegmentationExperiment
 from validation.suite.suite import load_suite
 
 SERIES = ("robust-exact", "robust-stereo", "robust-sgm", "robust-none")

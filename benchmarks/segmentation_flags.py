@@ -17,8 +17,8 @@ from rockshape.observation import Observation
 from rockshape.pipeline import measure
 from synth.dataset.write import write_common, write_scene
 from synth.render import choose_backend
+from validation.kinds.segmentation.spec import SegmentationExperiment
 from validation.records.truth import read_instances
-from validation.suite.experiments import SegmentationExperiment
 from validation.suite.suite import load_suite
 
 SEEDS = {"sparse": 50_000, "crowded": 50_100, "slope": 50_300}

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from validation.kinds.segmentation.scores import DEPTHS_M, SIZES_PX, f1
+from validation.kinds.segmentation.judge import DEPTHS_M, SIZES_PX, f1
 
 FAMILIES = ("sparse", "crowded", "touching", "slope", "low_sun", "ripples")
 WAYS = ("paper", "robust", "height", "watershed")

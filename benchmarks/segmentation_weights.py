@@ -24,8 +24,8 @@ from rockshape.segmentation.by_image.star_proposals import propose
 from rockshape.segmentation.polygon_fill import inside_of
 from synth.dataset.write import write_scene
 from synth.render import choose_backend
+from validation.kinds.segmentation.spec import SegmentationExperiment
 from validation.records.truth import read_instances
-from validation.suite.experiments import SegmentationExperiment
 from validation.suite.suite import load_suite
 
 Floats = NDArray[np.float64]

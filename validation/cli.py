@@ -13,19 +13,12 @@ from tqdm import tqdm
 
 from rockshape.method import methods
 from validation.errors import InputError
-from validation.execution.compare import (
-    MARGIN,
-    REGRESSIONS,
-    check_paired,
-    compare,
-    failed_gates,
-    load_recorded,
-)
-from validation.execution.executors import cluster, local
-from validation.execution.run import Run, default_jobs, prepare, run_suite
+from validation.execution.compare import MARGIN, REGRESSIONS, compare
+from validation.execution.executors import cluster, default_jobs, local
+from validation.execution.recorded import check_paired, failed_gates, load_recorded
+from validation.execution.run import Run, prepare, run_suite
 from validation.execution.store import FOLDER, UnitStore, unit_key
-from validation.execution.units import Unit, describe, units_of
-from validation.kinds.scoring import score_names
+from validation.execution.units import AnyUnit, describe, units_of
 from validation.peers import Trait
 from validation.peers.adapters import ADAPTERS
 from validation.peers.parse import parse_measure, parse_traits, settle
@@ -33,6 +26,7 @@ from validation.report import check_target, write_run
 from validation.report.comparison import comparison_markdown
 from validation.report.format import number
 from validation.report.leaderboard import leaderboard_lines
+from validation.scores.scoring import score_names
 from validation.suite.gates import check_names, gates_on
 from validation.suite.suite import Suite, load_gates, load_suite, suite_names, with_methods
 
@@ -129,7 +123,7 @@ class _Progress:
         if done and self._bar.disable:
             print(f"{done} of {total} units are there already", file=sys.stderr, flush=True)
 
-    def advance(self, unit: Unit) -> None:
+    def advance(self, unit: AnyUnit) -> None:
         """Count one unit as done."""
         self._done += 1
         if self._bar.disable:

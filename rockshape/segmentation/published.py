@@ -31,7 +31,7 @@ TOP_SHARE = 0.25  # and this share of its own height above the ground
 MIN_PIXELS = 40  # a rock of seven pixels across
 
 
-class Kind(IntEnum):
+class RegionKind(IntEnum):
     """What a region of one level is, by its neighbours."""
 
     NONE = 0  # nothing measured
@@ -54,7 +54,7 @@ def cut_levels(height_m: NDArray[np.float64], *, sigma_m: float) -> NDArray[np.i
 
 
 def classify(levels: NDArray[np.int32], known: NDArray[np.bool_]) -> NDArray[np.uint8]:
-    """The Kind of the region that each pixel lies in, (rows, cols).
+    """The RegionKind of the region that each pixel lies in, (rows, cols).
 
     Regions are 8-connected. Pixels where nothing is known are no neighbours, so that a region
     with known neighbours on one side only is judged by those. A region alone is a bottom.
@@ -73,10 +73,10 @@ def classify(levels: NDArray[np.int32], known: NDArray[np.bool_]) -> NDArray[np.
             up = both & (sign * rise > 0)
             has_higher[regions[first][up]] = True
             has_lower[regions[second][up]] = True
-    kinds = np.full(count, Kind.BOTTOM, dtype=np.uint8)
-    kinds[has_lower & has_higher] = Kind.SIDE
-    kinds[has_lower & ~has_higher] = Kind.TOP
-    kinds[0] = Kind.NONE
+    kinds = np.full(count, RegionKind.BOTTOM, dtype=np.uint8)
+    kinds[has_lower & has_higher] = RegionKind.SIDE
+    kinds[has_lower & ~has_higher] = RegionKind.TOP
+    kinds[0] = RegionKind.NONE
     return np.asarray(kinds[regions])
 
 
@@ -96,7 +96,7 @@ def segment_heights(height_m: NDArray[np.float64], *, sigma_m: float) -> NDArray
         return np.zeros(height_m.shape, dtype=np.int32)
     levels = cut_levels(height_m, sigma_m=sigma_m)
     slopes = known & (levels >= GROUND_LEVELS)
-    slopes &= classify(levels, known) != Kind.BOTTOM
+    slopes &= classify(levels, known) != RegionKind.BOTTOM
     tops = _find_tops(levels, known)
     rocks = watershed(-levels, markers=tops, mask=slopes | (tops > 0), connectivity=2)
     rocks = _fill_dents(np.asarray(rocks, dtype=np.int32))

@@ -21,14 +21,16 @@ _PLAIN: Mapping[type, str] = {
 _BOUNDS = (("gt", "above"), ("ge", "at least"), ("lt", "below"), ("le", "at most"))
 
 
-def complaint(table: object, kind: Any) -> str:
+def complaint(table: object, kind: Any, *, path: str = "") -> str:
     """First complaint about plain tables that cannot be converted to a struct.
+
+    `path` is the place of the tables themselves, where they are part of a larger file.
 
     An unknown key reads `unknown key 'cuont' in [rocks]; did you mean 'count'?`, anything else
     `rocks.count: expected …, found …`. A struct's own `__post_init__` raises ValueError with a
     text that begins with the key that it is about.
     """
-    found = _complaint(table, kind, "")
+    found = _complaint(table, kind, path)
     return f"expected {describe(inspect.type_info(kind))}" if found is None else found
 
 

@@ -7,9 +7,11 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from validation.scores.expectations import Claim, all_claims
+from validation.kinds.multiview.spec import MultiviewExperiment
+from validation.kinds.shapes.spec import ShapesExperiment
+from validation.scores.expectations import Claim
 from validation.scores.score import Key
-from validation.suite.experiments import ShapesExperiment, YardExperiment
+from validation.scores.scoring import all_claims
 from validation.suite.suite import Suite, load_suite
 
 MEASURES = (
@@ -47,7 +49,7 @@ def _rows(
     )
 
 
-def _yard(experiment: YardExperiment, rng: np.random.Generator) -> Iterator[pd.DataFrame]:
+def _yard(experiment: MultiviewExperiment, rng: np.random.Generator) -> Iterator[pd.DataFrame]:
     rocks = experiment.scene.rocks.count
     for scene in range(experiment.scenes):
         roundness = np.linspace(0.05, 0.6, rocks)
@@ -59,7 +61,7 @@ def _yard(experiment: YardExperiment, rng: np.random.Generator) -> Iterator[pd.D
             "truth_outline_axis_ratio": np.linspace(0.5, 0.9, rocks),
             "truth_maximum_projection_sphericity": rng.permutation(rocks) / 10 + 0.3,
         }
-        place = {"experiment": experiment.name, "kind": "yard", "series": "", "scene": scene}
+        place = {"experiment": experiment.name, "kind": "multiview", "series": "", "scene": scene}
         place["seed"] = experiment.seed + scene
         yield _rows(place, truths, views=experiment.scene.views.count, rng=rng)
 
@@ -81,7 +83,7 @@ def fabricate(suite: Suite, *, rng: np.random.Generator) -> pd.DataFrame:
     """Return records of a suite whose measures are pure noise."""
     parts: list[pd.DataFrame] = []
     for experiment in suite.experiments:
-        make = _yard if isinstance(experiment, YardExperiment) else _shapes
+        make = _yard if isinstance(experiment, MultiviewExperiment) else _shapes
         parts.extend(make(experiment, rng))
     return pd.concat(parts, ignore_index=True)
 

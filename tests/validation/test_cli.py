@@ -8,8 +8,8 @@ import pytest
 from rockshape.cli import main
 from rockshape.method import methods
 from synth.render import backends
-from validation.execution.units import SceneUnit, describe, units_of
-from validation.report.scores_json import FORMAT
+from validation.execution.recorded import FORMAT
+from validation.execution.units import describe, units_of
 from validation.suite.suite import load_suite
 
 SUITE = """
@@ -17,7 +17,7 @@ name = "tiny"
 title = "One small scene and one drawing"
 
 [[experiment]]
-kind = "yard"
+kind = "multiview"
 name = "yard"
 title = "Yard"
 seed = 10500
@@ -90,7 +90,7 @@ def test_records_do_not_depend_on_the_number_of_processes(runs) -> None:
 def test_the_records_hold_truth_and_measures_of_every_rock(runs) -> None:
     folder, _, _ = runs
     records = pd.read_parquet(folder / "one" / "results.parquet")
-    rocks = records[(records["kind"] == "yard") & (records["status"] != "extra")]
+    rocks = records[(records["kind"] == "multiview") & (records["status"] != "extra")]
     assert len(rocks) == 2 * 2 * len(methods())  # rocks, views
     assert rocks["truth_maximum_projection_sphericity"].between(0, 1).all()
     found = rocks[rocks["status"] == "matched"]
@@ -174,4 +174,3 @@ def test_units_are_in_the_order_of_the_suite(suite_path) -> None:
         "shapes roundness 10600",
         "shapes sphericity 10600",
     ]
-    assert isinstance(units[0], SceneUnit)

@@ -14,15 +14,15 @@ from rockshape.cli import main
 from validation.execution.dispatch import dispatch
 from validation.execution.executors import cluster, local
 from validation.execution.store import UnitStore, unit_key
-from validation.execution.units import DrawingUnit
-from validation.suite.experiments import ShapesExperiment
+from validation.execution.units import Unit
+from validation.kinds.shapes.spec import ShapesExperiment
 
 pytest.importorskip("distributed", reason="the extra cluster is not installed")
 
 LOCAL = "127.0.0.1"
 DRAWINGS = ShapesExperiment(name="shapes", title="S", seed=10700, drawings=6)
 UNITS = [
-    DrawingUnit(DRAWINGS, series, scene)
+    Unit(DRAWINGS, series, scene)
     for series in DRAWINGS.series
     for scene in range(DRAWINGS.drawings)
 ]

@@ -9,12 +9,12 @@ import pandas as pd
 import pytest
 
 from rockshape.cli import main
-from validation.execution.compare import Recorded, compare, load_recorded
+from validation.execution.compare import compare
+from validation.execution.recorded import FORMAT, Recorded, load_recorded
 from validation.execution.run import assess
 from validation.execution.units import UnitResult
-from validation.kinds.scoring import gate_scores
 from validation.report import write_run
-from validation.report.scores_json import FORMAT
+from validation.scores.scoring import gate_scores
 from validation.selfcheck.oracle import oracle
 from validation.suite.gates import evaluate
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from validation.errors import InputError
-from validation.kinds.design.outlines import explained_share, moments_of
-from validation.kinds.design.shared_variance import movements
-from validation.kinds.design.variance_components import CAUSES, Parts, split
+from validation.kinds.design.judge.outlines import explained_share, moments_of
+from validation.kinds.design.judge.shared_variance import movements
+from validation.kinds.design.judge.variance_components import CAUSES, Parts, split
 
 V, D, L, R = 5, 3, 2, 4
 

@@ -5,9 +5,8 @@ import pandas as pd
 import pytest
 
 from rockshape.method import methods
-from validation.kinds.design.outlines import TRUTH_OF
-from validation.kinds.scoring import gate_scores
-from validation.suite.experiments import DesignExperiment
+from validation.kinds.design.spec import DesignExperiment
+from validation.scores.scoring import gate_scores
 from validation.suite.gates import evaluate
 from validation.suite.suite import Suite, load_suite
 
@@ -37,8 +36,9 @@ def fabricated(suite: Suite, *, rng: np.random.Generator) -> pd.DataFrame:
     records["truth_outline_axis_ratio"] = truths[0][seen]
     records["truth_outline_roundness"] = truths[1][seen]
     every = [one for method in methods().values() for one in method.measures]
+    records["truth_outline_angularity"] = 1.0 - records["truth_outline_roundness"]
     for one in every:
-        records[one.column] = records[TRUTH_OF[one.column]] if one.column in TRUTH_OF else 0.7
+        records[one.column] = records[f"truth_{one.view_truth}"] if one.view_truth else 0.7
     noisy = records["series"] == "noisy"
     columns = list(dict.fromkeys(one.column for one in every))
     chance = 0.01 * rng.standard_normal((int(noisy.sum()), len(columns)))

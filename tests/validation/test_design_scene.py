@@ -7,22 +7,21 @@ import pytest
 
 from rockshape.measurement import to_frame
 from rockshape.method import methods
-from rockshape.observation import Observation
 from rockshape.pipeline import measure
 from validation.errors import InputError
 from validation.execution.run import assess
 from validation.execution.store import UnitStore, pack, unit_key
-from validation.execution.units import DesignUnit, UnitResult
+from validation.execution.units import Unit, UnitResult
 from validation.execution.work import run_unit
+from validation.kinds.design.judge.tensors import cubes_of
+from validation.kinds.design.judge.variance_components import CAUSES
 from validation.kinds.design.placement import near_spec, scenes_of
-from validation.kinds.design.tensors import cubes_of
-from validation.kinds.design.variance_components import CAUSES
+from validation.kinds.design.spec import DesignExperiment
 from validation.kinds.design.work import shots, true_rocks
-from validation.kinds.scoring import score_names, score_values
 from validation.report.page import page_html
 from validation.report.summary import summary_markdown
+from validation.scores.scoring import score_names, score_values
 from validation.selfcheck.oracle import mixed, oracle, shuffled
-from validation.suite.experiments import DesignExperiment
 from validation.suite.gates import Gate
 from validation.suite.suite import Suite, load_suite
 
@@ -79,7 +78,7 @@ def experiment(small) -> DesignExperiment:
 
 @pytest.fixture(scope="module")
 def result(experiment) -> UnitResult:
-    return run_unit(DesignUnit(experiment, 0))
+    return run_unit(Unit(experiment, "", 0))
 
 
 def test_rocks_keep_their_form_and_the_line_they_are_seen_along(experiment) -> None:
@@ -102,30 +101,28 @@ def test_clean_values_know_nothing_of_light(experiment) -> None:
     """Two suns give other pictures, the same masks and range, and to the bit the same values."""
     spec = near_spec(experiment, 0)
     taken = shots(spec, experiment)
-    (one, camera), (other, _) = next(taken), next(taken)
-    assert (one.sun, other.sun, one.view, other.view) == (0, 1, 0, 0)
-    assert not np.array_equal(one.image, other.image)
+    one, other = next(taken), next(taken)
+    assert (one.sun, other.sun, one.view.number, other.view.number) == (0, 1, 0, 0)
+    assert not np.array_equal(one.view.image, other.view.image)
     for method in methods():
         tables = [
             to_frame(
                 measure(
-                    Observation(
-                        image=shot.image, points_m=camera.unproject(shot.exact_m), camera=camera
-                    ),
+                    view.observation(view.exact_m),
                     method=method,
-                    labels=shot.instances,
+                    labels=view.instances,
                 )
             )
-            for shot in (one, other)
+            for view in (one.view, other.view)
         ]
         pd.testing.assert_frame_equal(*tables, check_exact=True)
 
 
 def test_leaving_out_what_is_no_rock_changes_no_value(experiment) -> None:
-    shot, camera = next(shots(near_spec(experiment, 0), experiment))
-    seen = Observation(image=shot.image, points_m=camera.unproject(shot.noisy_m), camera=camera)
+    view = next(shots(near_spec(experiment, 0), experiment)).view
+    seen = view.observation(view.points_m)
     whole = to_frame(measure(seen, method="paper")).set_index("rock")
-    labels = true_rocks(seen, shot.instances, min_iou=0.5)
+    labels = true_rocks(seen, view.instances, min_iou=0.5)
     alone = to_frame(measure(seen, method="paper", labels=labels)).set_index("rock")
     assert 0 < len(alone) <= len(whole)
     columns = [m.column for m in methods()["paper"].measures]
@@ -146,8 +143,8 @@ def test_a_unit_fills_every_cell(experiment, result) -> None:
 
 
 def test_a_cell_is_a_function_of_its_spec(experiment) -> None:
-    one, other = (next(shots(near_spec(experiment, 0), experiment))[0] for _ in range(2))
-    assert np.array_equal(one.noisy_m, other.noisy_m, equal_nan=True)
+    one, other = (next(shots(near_spec(experiment, 0), experiment)).view for _ in range(2))
+    assert np.array_equal(one.points_m, other.points_m, equal_nan=True)
     assert np.array_equal(one.image, other.image)
 
 
@@ -168,7 +165,7 @@ def test_scores_gates_checks_and_reports_take_a_design(small, experiment, result
     assert "views" not in summary_markdown(run).splitlines()[0]
     assert "d.axis_ratio.cv" in page_html(run, command="x", seconds=1.0)
     store = UnitStore(tmp_path / "units", keep=False)
-    unit = DesignUnit(experiment, 0)
+    unit = Unit(experiment, "", 0)
     store.put(unit_key(unit), pack(result))
     again = assess(small, gates, store.results([unit_key(unit)]))
     assert [s.value for s in again.scores] == pytest.approx(
@@ -188,7 +185,7 @@ def test_known_measurers_of_a_design(small, result) -> None:
 
 def test_another_seed_or_level_is_another_unit(experiment) -> None:
     keys = {
-        unit_key(DesignUnit(changed, 0))
+        unit_key(Unit(changed, "", 0))
         for changed in (
             experiment,
             msgspec.structs.replace(experiment, seed=41),
@@ -197,8 +194,8 @@ def test_another_seed_or_level_is_another_unit(experiment) -> None:
         )
     }
     assert len(keys) == 4
-    assert unit_key(DesignUnit(experiment, 0)) == unit_key(
-        DesignUnit(msgspec.structs.replace(experiment, title="other", scenes=2), 0)
+    assert unit_key(Unit(experiment, "", 0)) == unit_key(
+        Unit(msgspec.structs.replace(experiment, title="other", scenes=2), "", 0)
     )
 
 
@@ -207,7 +204,7 @@ def test_another_seed_or_level_is_another_unit(experiment) -> None:
     [
         ("distances_m", "[4.0, 3.0]", "rising"),
         ("rolls_deg", "[1.0, 1.0]", "differ"),
-        ("suns", "[{ elevation_deg = 25.0 }]", "length"),
+        ("suns", "[{ elevation_deg = 25.0 }]", "suns: expected a list of at least 2"),
         ("methods", '["other"]', "methods"),
     ],
 )
@@ -225,7 +222,7 @@ def test_levels_that_make_no_design_are_refused(tmp_path, key, value, complaint)
     [
         ('kind = "stereo"', 'kind = "none"', "stereo or sgm"),
         ("count = 2\n\n[experiment.scene.noise]", "count = 1\n\n[experiment.scene.noise]", "views"),
-        ('preset = "imp"', 'preset = "imp"\nroll_deg = 3.0', "beside its name"),
+        ('preset = "imp"', 'preset = "imp"\nroll_deg = 3.0', "beside the experiment"),
         ("[experiment.scene.views]", "[experiment.scene.ground]\nslope_deg = 5.0\n\n"
          "[experiment.scene.views]", "level ground"),
     ],

@@ -6,15 +6,27 @@ from pathlib import Path
 
 import pytest
 
-from validation.execution.fingerprint import LEFT_OUT, PACKAGES, code_digest, tree_digest
+from validation.execution.fingerprint import (
+    LEFT_OUT,
+    PACKAGES,
+    code_digest,
+    left_out_files,
+    loadable_files,
+    tree_digest,
+)
+from validation.suite.registry import kinds
 
 ROOT = Path(__file__).parents[2]
 WORKER = """
 import sys
+from importlib import import_module
+from validation.suite.registry import kinds
 from validation.suite.suite import load_suite
 from validation.execution.dispatch import run_packed
 from validation.execution.units import units_of
 run_packed(units_of(load_suite("shapes-roundness"))[0])
+for kind in kinds().values():
+    import_module(kind.work)
 print("\\n".join(sys.modules))
 """
 
@@ -56,17 +68,32 @@ def test_a_report_edit_does_not_change_the_key(package) -> None:
 
 def test_all_that_is_left_out_exists() -> None:
     assert [name for name in LEFT_OUT if not (ROOT / name).exists()] == []
-    assert code_digest() != tree_digest([ROOT / package for package in PACKAGES])
+    roots = [ROOT / package for package in PACKAGES]
+    assert code_digest() != tree_digest(roots, left_out=left_out_files())
 
 
 def test_no_worker_imports_what_is_left_out() -> None:
     done = subprocess.run(
         [sys.executable, "-c", WORKER], capture_output=True, text=True, check=True, cwd=ROOT
     )
-    left_out = {name.removesuffix(".py").replace("/", ".") for name in LEFT_OUT}
+    left_out = {name.removesuffix(".py").replace("/", ".") for name in left_out_files()}
     loaded = [
         module
         for module in done.stdout.split()
         if any(module == name or module.startswith(name + ".") for name in left_out)
     ]
     assert loaded == []
+    assert "validation.kinds.design.work" in done.stdout.split()
+
+
+def test_what_judges_and_shows_a_kind_is_left_out_by_its_role() -> None:
+    root = ROOT / "validation"
+    names = {name for name, _ in loadable_files(root, left_out=left_out_files())}
+    assert "validation/kinds/shapes/work.py" in names
+    assert "validation/kinds/shapes/judge.py" not in names
+    assert not any(name.startswith("validation/kinds/multiview/page/") for name in names)
+    assert not any(name.startswith("validation/kinds/design/judge/") for name in names)
+    for kind in kinds().values():
+        for module in kind.never_in_workers:
+            path = ROOT / module.replace(".", "/")
+            assert path.is_dir() or path.with_suffix(".py").is_file(), module

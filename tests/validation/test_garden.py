@@ -5,26 +5,35 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from validation.kinds.garden.scores import COUPLES, column_of, definitions, is_garden, rho_key
-from validation.kinds.scoring import score_records
+from validation.errors import InputError
+from validation.kinds.garden.judge import COUPLES, column_of, correlations, rho_key
+from validation.kinds.garden.spec import GardenExperiment
 from validation.paper import GARDEN_COLUMNS, garden_rank_move, garden_table
-from validation.suite.experiments import YardExperiment
+from validation.scores.scoring import score_records
+from validation.suite.suite import as_suite, load_suite
 
 ROUNDING = 1e-12
 
 
 @pytest.fixture(scope="module")
-def field(suite) -> YardExperiment:
-    experiment = suite.experiments[0]
-    table = msgspec.to_builtins(experiment.scene)
-    table["views"]["path"], table["population"]["kind"] = "pan", "golombek-rapp"
-    scene = msgspec.convert(table, type(experiment.scene))
-    return msgspec.structs.replace(experiment, scene=scene)
+def field(suite) -> GardenExperiment:
+    table = msgspec.to_builtins(suite.experiments[0])
+    table["scene"]["views"]["path"] = "pan"
+    table["scene"]["population"]["kind"] = "golombek-rapp"
+    return msgspec.convert(table | {"kind": "garden"}, GardenExperiment)
 
 
-def test_a_pan_is_a_garden(suite, field) -> None:
-    assert is_garden(field)
-    assert not any(is_garden(e) for e in suite.experiments if isinstance(e, YardExperiment))
+def test_an_older_table_of_a_pan_is_read_as_a_garden() -> None:
+    whole = msgspec.to_builtins(load_suite("garden"))
+    (table,) = whole["experiment"]
+    assert table["kind"] == "garden"
+    assert as_suite(whole | {"experiment": [table | {"kind": "yard"}]}, where="old") == load_suite(
+        "garden"
+    )
+    with pytest.raises(InputError, match=r"scene.views.path: expected 'pan', found 'drive-by'"):
+        views = table["scene"]["views"] | {"path": "drive-by"}
+        scene = table["scene"] | {"views": views}
+        as_suite(whole | {"experiment": [table | {"scene": scene}]}, where="s")
 
 
 def test_rho_is_spearmans(suite, field, noise) -> None:
@@ -41,7 +50,7 @@ def test_rho_is_spearmans(suite, field, noise) -> None:
 
 def test_rho_without_values_is_nan(field, noise) -> None:
     empty = noise.assign(angularity_3d_per_m=np.nan)
-    found = {d.name: d.compute(empty) for d in definitions(field)}
+    found = {d.name: d.compute(empty) for d in correlations(field)}
     assert np.isnan(found[rho_key(field.name, "paper", COUPLES[1]).name].value)
 
 

@@ -20,7 +20,7 @@ from validation.records.truth import (
     view_columns,
 )
 
-PLACE = RecordKey("yard", "yard", "", 0, 10000, 2, "paper")
+PLACE = RecordKey("yard", "multiview", "", 0, 10000, 2, "paper")
 
 
 def discs(*centres: tuple[int, int]) -> np.ndarray:

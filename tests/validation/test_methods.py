@@ -6,11 +6,11 @@ from dataclasses import replace
 import pytest
 
 from rockshape.method import methods, registered
-from validation.execution.units import DrawingUnit
+from validation.execution.units import Unit
 from validation.execution.work import run_unit
-from validation.kinds.scoring import definitions, score_names, score_values
-from validation.scores.expectations import claims_of
-from validation.suite.experiments import ShapesExperiment, YardExperiment
+from validation.kinds.multiview.spec import MultiviewExperiment
+from validation.kinds.shapes.spec import ShapesExperiment
+from validation.scores.scoring import claims_of, definitions, score_names, score_values
 from validation.suite.gates import Gate, gates_on
 from validation.suite.suite import Suite, load_suite, with_methods
 
@@ -36,7 +36,7 @@ def suite() -> Iterator[Suite]:
 
 
 def test_each_method_has_its_rows_and_its_scores(suite) -> None:
-    records = run_unit(DrawingUnit(suite.experiments[0], "sphericity", 0)).records
+    records = run_unit(Unit(suite.experiments[0], "sphericity", 0)).records
     assert records.groupby("method").size().to_dict() == {"paper": 4, "turned": 4}
     assert records[["view", "instance", "method"]].duplicated().sum() == 0
     assert records.loc[records["method"] == "turned", "sphericity_2d"].isna().all()
@@ -54,14 +54,14 @@ def test_the_paper_goes_without_saying(suite) -> None:
 
 def test_drawings_make_no_claim_that_needs_range() -> None:
     drawings = ShapesExperiment(name="s", title="S", seed=1, drawings=1)
-    yard = YardExperiment(name="y", title="Y", seed=1, scenes=1, varied=("angularity", "form"))
+    yard = MultiviewExperiment(name="y", title="Y", seed=1, scenes=1, varied=("angularity", "form"))
     suite = Suite(name="s", title="S", experiments=(drawings, yard), gates=(GATE,))
     ranged = {m.column for one in methods().values() for m in one.measures if m.needs_range}
     assert not ranged & {claim.measure for claim in claims_of(suite, drawings)}
     assert ranged <= {claim.measure for claim in claims_of(suite, yard)}
 
 
-@pytest.mark.parametrize("methods", [(), ("nope",), ("paper", "paper")])
+@pytest.mark.parametrize("methods", [(), ("paper", "paper")])
 def test_methods_that_are_not_there(methods) -> None:
     with pytest.raises(ValueError, match="expected"):
         ShapesExperiment(name="s", title="S", seed=1, drawings=1, methods=methods)

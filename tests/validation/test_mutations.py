@@ -2,7 +2,7 @@
 
 import pytest
 
-from validation.selfcheck.mutations import MUTATIONS, part_of, prepare_bench
+from validation.mutations import MUTATIONS, part_of, prepare_bench
 from validation.suite.suite import load_suite
 
 

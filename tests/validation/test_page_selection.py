@@ -10,11 +10,11 @@ import pytest
 from tests.validation.conftest import fabricate
 from tests.validation.pictured import units
 from validation.execution.run import assess
-from validation.execution.units import SceneUnit, spec_of
 from validation.report.embed import outline_path
 from validation.report.page import MAX_BYTES, page_html
-from validation.report.page_selection import choose, keys_of, outliers
+from validation.report.page_selection import choose, outliers
 from validation.report.rank_error import farthest, ranks_off
+from validation.report.rock_key import keys_of
 from validation.report.rocks import rock_table
 
 ROCKS = 2 * 4 * 6 + 2 * 4 * 4  # two yards of four scenes, two series of four drawings
@@ -107,7 +107,7 @@ def test_without_portraits_the_page_says_that_none_were_kept(suite, noise) -> No
 def test_a_suite_without_pictured_scenes_keeps_no_portraits(suite) -> None:
     yard = suite.experiments[0]
     without = msgspec.structs.replace(yard, pictured=0)
-    specs = [spec_of(SceneUnit(each, "", 3)) for each in (yard, without)]
+    specs = [each.dependencies("", 3) for each in (yard, without)]
     assert [spec["portrayed"] for spec in specs] == [True, False]
     assert [spec["pictured"] for spec in specs] == [False, False]
 

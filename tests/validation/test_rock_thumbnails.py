@@ -10,7 +10,7 @@ from validation.records.join import RecordKey
 from validation.records.pictures import TRUE, UNITS, compress, cut_round, mark
 from validation.records.rock_thumbnails import MARGIN, PORTRAIT_PX, portraits, whole_view
 
-PLACE = RecordKey("yard", "yard", "", 0, 10000, 0, "")
+PLACE = RecordKey("yard", "multiview", "", 0, 10000, 0, "")
 
 
 def discs() -> np.ndarray:

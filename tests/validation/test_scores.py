@@ -6,9 +6,14 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from validation.kinds.scoring import definitions, gate_scores, score_records, score_values
-from validation.kinds.shapes.scores import gap_shares
-from validation.scores.expectations import all_view_claims
+from validation.kinds.shapes.judge import gap_shares
+from validation.scores.scoring import (
+    all_view_claims,
+    definitions,
+    gate_scores,
+    score_records,
+    score_values,
+)
 from validation.selfcheck.oracle import mixed, oracle, shuffled
 from validation.suite.gates import Gate, evaluate
 

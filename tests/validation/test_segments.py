@@ -9,18 +9,19 @@ import pytest
 
 from rockshape.observation import Observation
 from validation.errors import InputError
-from validation.execution.compare import Recorded, check_paired, compare
+from validation.execution.compare import compare
+from validation.execution.recorded import Recorded, check_paired
 from validation.execution.run import assess
 from validation.execution.store import UnitStore, pack, unit_key
-from validation.execution.units import SegmentationUnit, UnitResult
+from validation.execution.units import Unit, UnitResult
 from validation.execution.work import run_unit
-from validation.kinds.scoring import gate_scores, score_values
 from validation.kinds.segmentation.baselines import fixed_height, otsu, plain_watershed
-from validation.kinds.segmentation.judge import Rule, judge
+from validation.kinds.segmentation.object_matching import Rule, judge
+from validation.kinds.segmentation.spec import SegmentationExperiment
 from validation.report.page import page_html
 from validation.report.summary import summary_markdown
+from validation.scores.scoring import gate_scores, score_values
 from validation.selfcheck.oracle import mixed, oracle, shuffled
-from validation.suite.experiments import SegmentationExperiment
 from validation.suite.gates import Gate, evaluate
 from validation.suite.suite import load_suite
 
@@ -178,7 +179,7 @@ def tiny() -> SegmentationExperiment:
 
 
 def test_a_unit_is_read_back_as_it_was_stored(tmp_path) -> None:
-    unit = SegmentationUnit(tiny(), 0)
+    unit = Unit(tiny(), "", 0)
     made = run_unit(unit)
     assert set(made.records["series"]) == {"height-exact", "otsu-none"}
     assert set(made.records["method"]) == {""}
@@ -192,13 +193,13 @@ def test_a_unit_is_read_back_as_it_was_stored(tmp_path) -> None:
 
 def test_the_key_is_of_what_the_records_depend_on() -> None:
     experiment = tiny()
-    key = unit_key(SegmentationUnit(experiment, 0))
+    key = unit_key(Unit(experiment, "", 0))
     replace = msgspec.structs.replace
     for same in (replace(experiment, title="T"), replace(experiment, scenes=9)):
-        assert unit_key(SegmentationUnit(same, 0)) == key
+        assert unit_key(Unit(same, "", 0)) == key
     for other in (replace(experiment, min_width_px=13), replace(experiment, series=("otsu-none",))):
-        assert unit_key(SegmentationUnit(other, 0)) != key
-    assert unit_key(SegmentationUnit(experiment, 1)) != key
+        assert unit_key(Unit(other, "", 0)) != key
+    assert unit_key(Unit(experiment, "", 1)) != key
 
 
 def two_ways(records: pd.DataFrame) -> Recorded:
@@ -250,4 +251,4 @@ def test_the_page_has_a_row_for_each_way_and_no_leaderboard() -> None:
     assert "<th>paper-exact</th>" in page
     assert "<th>robust-exact</th>" in page
     assert "Leaderboard" not in page + summary_markdown(run)
-    assert "of a segmentation over scenes" in page
+    assert "bootstrap intervals over scenes" in page

@@ -19,9 +19,9 @@ from validation.execution import store as store_module
 from validation.execution.dispatch import dispatch, run_packed
 from validation.execution.executors import LocalExecutor, local
 from validation.execution.store import UnitStore, code_of, is_store, pack, unit_key
-from validation.execution.units import DrawingUnit, units_of
+from validation.execution.units import Unit, units_of
 from validation.execution.work import run_unit
-from validation.suite.experiments import ShapesExperiment
+from validation.kinds.shapes.spec import ShapesExperiment
 from validation.suite.suite import load_suite
 
 SUITE = """
@@ -42,7 +42,7 @@ reason = "four shapes far apart"
 """
 UNITS = 2 * 3
 DRAWINGS = ShapesExperiment(name="shapes", title="S", seed=10600, drawings=3)
-UNIT = DrawingUnit(DRAWINGS, "sphericity", 0)
+UNIT = Unit(DRAWINGS, "sphericity", 0)
 
 
 @pytest.fixture(scope="module")
@@ -71,11 +71,11 @@ def test_a_result_comes_back_as_it_was(packed, tmp_path) -> None:
 def test_the_key_tells_what_matters_and_nothing_else(monkeypatch) -> None:
     def key(**changes) -> str:
         experiment = msgspec.structs.replace(DRAWINGS, **changes)
-        return unit_key(DrawingUnit(experiment, "sphericity", 1))
+        return unit_key(Unit(experiment, "sphericity", 1))
 
     assert key() == key(title="another", drawings=99)
     others = {key(seed=1), key(count=5), key(name="other"), unit_key(UNIT)}
-    others.add(unit_key(DrawingUnit(DRAWINGS, "roundness", 1)))
+    others.add(unit_key(Unit(DRAWINGS, "roundness", 1)))
     assert len(others | {key()}) == 6
     before = key()
     monkeypatch.setattr(store_module, "code_digest", lambda: "other code")

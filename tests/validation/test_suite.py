@@ -5,7 +5,7 @@ from importlib.resources import files
 import pytest
 
 from validation.errors import InputError
-from validation.kinds.scoring import definitions
+from validation.scores.scoring import definitions
 from validation.suite.gates import check_names
 from validation.suite.suite import load_gates, load_suite, suite_names
 
@@ -37,17 +37,33 @@ def test_the_suites_of_the_contract_are_there() -> None:
 @pytest.mark.parametrize(
     ("old", "new", "named"),
     [
-        ("scenes =", "scnes =", "scnes"),
-        ("seed = 10000", "seed = -1", "seed"),
-        ('kind = "yard"', 'kind = "garden"', "garden"),
-        ("count = 6", "count = 0", "count"),
+        (
+            "scenes =",
+            "scnes =",
+            r"unknown key 'scnes' in \[experiment\[0\]\]; did you mean 'scenes'\?",
+        ),
+        (
+            "count = 6",
+            "cuont = 6",
+            r"unknown key 'cuont' in \[experiment\[0\].scene.rocks\]; did you mean 'count'\?",
+        ),
+        ("seed = 10000", "seed = -1", r"experiment\[0\].seed: expected"),
+        (
+            'kind = "multiview"',
+            'kind = "multivew"',
+            r"experiment\[0\].kind: expected one of .*; did you mean 'multiview'\?",
+        ),
+        ('kind = "multiview"\n', "", r"experiment\[0\].kind: expected one of"),
+        ('kind = "multiview"', 'kind = "garden"', "expected 'pan', found"),
+        ("count = 6", "count = 0", r"experiment\[0\].scene.rocks.count: expected"),
+        ("seed = 10000", 'seed = 10000\nmethods = ["papr"]', "did you mean 'paper'"),
         (
             "[experiment.scene.rocks]",
             "[experiment.scene]\nseed = 3\n[experiment.scene.rocks]",
             "seed",
         ),
         ('name = "form"', 'name = "yard"', "differ"),
-        ("reason =", "why =", "why"),
+        ("reason =", "why =", r"unknown key 'why' in \[gate\[0\]\]"),
     ],
 )
 def test_a_bad_key_is_named(tmp_path, old, new, named) -> None:

@@ -8,19 +8,19 @@ from synth.spec import SceneSpec
 from validation.execution.store import unit_key
 from validation.execution.units import units_of
 from validation.execution.work import run_unit
-from validation.kinds.scoring import definitions
-from validation.suite.experiments import YardExperiment
+from validation.kinds.multiview.spec import MultiviewExperiment
+from validation.kinds.multiview.sweep import Sweep
+from validation.scores.scoring import definitions
 from validation.suite.suite import Suite
-from validation.suite.sweep import Sweep
 
 
 def sweep(key, values) -> Sweep:
     return Sweep(key=key, values=values, title="what is turned")
 
 
-def experiment(turned: Sweep, **scene) -> YardExperiment:
+def experiment(turned: Sweep, **scene) -> MultiviewExperiment:
     table = {"camera": {"preset": "imp", "distance_m": 5.0}, "views": {"count": 2}} | scene
-    return YardExperiment(
+    return MultiviewExperiment(
         name="turned",
         title="Turned",
         seed=100,

@@ -9,23 +9,23 @@ import cv2
 from validation.errors import WorkerError
 from validation.execution.fingerprint import code_digest
 from validation.execution.store import UnitStore, code_of, pack
-from validation.execution.units import Unit, describe
+from validation.execution.units import AnyUnit, describe
 from validation.execution.work import run_unit
 
 WINDOW = 1024  # units submitted at a time: neither futures nor results pile up
 _ONE_AT_A_TIME = threading.Lock()  # OpenGL belongs to one thread of a process
 
-OnDone = Callable[[Unit], None]
+OnDone = Callable[[AnyUnit], None]
 
 
-def run_packed(unit: Unit) -> bytes:
+def run_packed(unit: AnyUnit) -> bytes:
     """Run a unit in a worker, with one thread; return its packed result."""
     with _ONE_AT_A_TIME:
         cv2.setNumThreads(1)
         return pack(run_unit(unit))
 
 
-def _checked(packed: bytes, unit: Unit) -> bytes:
+def _checked(packed: bytes, unit: AnyUnit) -> bytes:
     if code_of(packed) != code_digest():
         raise WorkerError(
             f"{describe(unit)}: expected workers with the code and versions of this process, "
@@ -35,7 +35,7 @@ def _checked(packed: bytes, unit: Unit) -> bytes:
 
 
 def dispatch(
-    work: Sequence[tuple[str, Unit]], executor: Executor, store: UnitStore, on_done: OnDone
+    work: Sequence[tuple[str, AnyUnit]], executor: Executor, store: UnitStore, on_done: OnDone
 ) -> None:
     """Run keyed units and store what comes back, in whatever order it comes.
 
@@ -43,7 +43,7 @@ def dispatch(
         WorkerError: a worker has other code than this process; or it died again and again.
     """
     waiting = list(reversed(work))
-    running: dict[Future[bytes], tuple[str, Unit]] = {}
+    running: dict[Future[bytes], tuple[str, AnyUnit]] = {}
     try:
         while waiting or running:
             while waiting and len(running) < WINDOW:

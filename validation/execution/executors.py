@@ -16,6 +16,13 @@ CONNECT_S = 10
 BLAS_THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
 
 
+def default_jobs() -> int:
+    """Return the number of processors this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
 def _die_with_parent() -> None:
     """End this process when the one that began it has gone, however it went."""
     parent = parent_process()

@@ -1,7 +1,8 @@
 """Code fingerprint: a hash of every file that can change a unit's result, and of versions.
 
 The three packages and all plug-ins are walked, so that a new, moved or renamed file counts without
-being listed. Only what scores, draws or parses the command line is left out.
+being listed. Only what scores, draws or parses the command line is left out: the files below, and
+the modules by which a kind judges and shows its experiments.
 """
 
 import hashlib
@@ -14,6 +15,8 @@ from importlib.resources import files
 from importlib.util import find_spec
 from pathlib import Path
 
+from validation.suite.registry import installed_kinds
+
 PACKAGES = ("rockshape", "synth", "validation")
 # Folders and files that no worker loads; tests hold that to be so.
 LEFT_OUT = frozenset(
@@ -23,6 +26,7 @@ LEFT_OUT = frozenset(
         "rockshape/report",
         "synth/cli.py",
         "validation/cli.py",
+        "validation/mutations",
         "validation/selfcheck",
         "validation/paper",
         "validation/pytest_plugin",
@@ -54,7 +58,14 @@ def loadable_files(root: Path, *, left_out: Collection[str]) -> Iterator[tuple[s
             yield name.as_posix(), path
 
 
-def tree_digest(roots: Collection[Path], *, left_out: Collection[str] = LEFT_OUT) -> str:
+def left_out_files() -> frozenset[str]:
+    """Return the files and folders that no worker loads, those of installed kinds included."""
+    judging = (module for kind in installed_kinds().values() for module in kind.never_in_workers)
+    names = [module.replace(".", "/") for module in judging]
+    return LEFT_OUT | {*names, *(f"{name}.py" for name in names)}
+
+
+def tree_digest(roots: Collection[Path], *, left_out: Collection[str]) -> str:
     """Return the SHA-256 of the names and contents of the packages' files."""
     digest = hashlib.sha256()
     for root in roots:
@@ -87,7 +98,8 @@ def _sources(module: str) -> Iterator[bytes]:
     if spec is None:
         return
     if spec.submodule_search_locations:
-        yield tree_digest([Path(each) for each in spec.submodule_search_locations]).encode()
+        roots = [Path(each) for each in spec.submodule_search_locations]
+        yield tree_digest(roots, left_out=left_out_files()).encode()
     elif spec.origin:
         yield Path(spec.origin).read_bytes()
 
@@ -108,7 +120,7 @@ def code_digest() -> str:
     """Return a hash of the files and versions that can change a unit's result."""
     digest = hashlib.sha256(platform.python_version().encode())
     roots = [Path(str(files(package))) for package in PACKAGES]
-    digest.update(tree_digest(roots).encode())
+    digest.update(tree_digest(roots, left_out=left_out_files()).encode())
     for part in _installed():
         digest.update(part)
     return digest.hexdigest()

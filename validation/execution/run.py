@@ -1,6 +1,5 @@
 """Run a suite: its units on an executor, then scores, then gates."""
 
-import os
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
@@ -8,15 +7,13 @@ from dataclasses import dataclass
 import msgspec
 import pandas as pd
 
-from synth.render import choose_backend
 from validation.execution.dispatch import OnDone, dispatch
 from validation.execution.store import StoredPicture, StoredResult, UnitStore, unit_key
 from validation.execution.units import UnitResult, units_of
-from validation.kinds.scoring import score_records
 from validation.records.pictures import Album, Picture
 from validation.scores.score import Score
+from validation.scores.scoring import score_records
 from validation.selfcheck.checks import Check, self_checks
-from validation.suite.experiments import Experiment, ShapesExperiment
 from validation.suite.gates import Gate, GateResult, ScoreValue, evaluate
 from validation.suite.suite import Suite
 
@@ -41,23 +38,6 @@ class Run:
     def passed(self) -> bool:
         """Whether every gate passed."""
         return all(gate.passed for gate in self.gates)
-
-
-def default_jobs() -> int:
-    """Return the number of processors this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
-
-
-def _with_backend(experiment: Experiment) -> Experiment:
-    """Return the experiment with the renderer that this machine has in place of `auto`."""
-    if isinstance(experiment, ShapesExperiment):
-        return experiment
-    scene = msgspec.structs.replace(
-        experiment.scene, renderer=choose_backend(experiment.scene.renderer)
-    )
-    return msgspec.structs.replace(experiment, scene=scene)
 
 
 def assess(suite: Suite, gates: Sequence[Gate], results: Iterable[Result]) -> Run:
@@ -93,9 +73,8 @@ def prepare(suite: Suite) -> Suite:
     Raises:
         MissingBackendError: the machine lacks the renderer; found out before any work is done.
     """
-    return msgspec.structs.replace(
-        suite, experiments=tuple(_with_backend(experiment) for experiment in suite.experiments)
-    )
+    experiments = tuple(experiment.settled() for experiment in suite.experiments)
+    return msgspec.structs.replace(suite, experiments=experiments)
 
 
 def run_suite(

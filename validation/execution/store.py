@@ -21,7 +21,7 @@ import pyarrow.parquet as pq
 
 from validation.errors import InputError
 from validation.execution.fingerprint import code_digest
-from validation.execution.units import Unit, UnitResult, spec_of
+from validation.execution.units import AnyUnit, UnitResult, spec_of
 from validation.records.join import RecordKey
 from validation.records.pictures import Album, Mark, Portrait
 
@@ -114,7 +114,7 @@ def code_of(packed: bytes) -> str:
     return str(head["code"])
 
 
-def unit_key(unit: Unit) -> str:
+def unit_key(unit: AnyUnit) -> str:
     """Return the SHA-256 of a unit's spec, methods and measures, and of the code that runs it."""
     text = json.dumps([FORMAT, code_digest(), spec_of(unit)], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()

@@ -1,64 +1,40 @@
-"""Work units: one scene or one drawing, and all that its result depends on."""
+"""Work unit: one scene or one drawing, and everything that its result depends on."""
 
+import inspect
 from dataclasses import dataclass
+from functools import cache
+from hashlib import sha256
+from pathlib import Path
+from typing import Generic, TypeVar
 
-import msgspec
 import pandas as pd
 
 from validation.peers import MeasureSpec, source_digest
 from validation.records.pictures import Picture, Portrait
-from validation.suite.experiments import (
-    DesignExperiment,
-    SegmentationExperiment,
-    ShapesExperiment,
-    YardExperiment,
-)
+from validation.suite.experiment import Experiment
+from validation.suite.plugins import load_plugin
 from validation.suite.suite import Suite
 
+E_co = TypeVar("E_co", bound=Experiment, covariant=True)
+
 
 @dataclass(frozen=True)
-class SceneUnit:
-    """Scene number `scene` of an experiment of rocks, at one step of its sweep."""
+class Unit(Generic[E_co]):
+    """Scene (or drawing) number `scene` of one series of an experiment."""
 
-    experiment: YardExperiment
+    experiment: E_co
     series: str
     scene: int
-    measures: tuple[MeasureSpec, ...] = ()  # beside the experiment's methods
+    measures: tuple[MeasureSpec, ...] = ()  # judged beside the experiment's methods
+    plugins: tuple[str, ...] = ()  # modules that register what the experiment names
 
 
-@dataclass(frozen=True)
-class DrawingUnit:
-    """Drawing number `scene` of one series of an experiment of shapes."""
-
-    experiment: ShapesExperiment
-    series: str
-    scene: int
-    measures: tuple[MeasureSpec, ...] = ()
-
-
-@dataclass(frozen=True)
-class SegmentationUnit:
-    """Scene number `scene` of an experiment of segmentation."""
-
-    experiment: SegmentationExperiment
-    scene: int
-
-
-@dataclass(frozen=True)
-class DesignUnit:
-    """Scene number `scene` of a designed experiment, in all its cells."""
-
-    experiment: DesignExperiment
-    scene: int
-
-
-MeasuredUnit = SceneUnit | DrawingUnit
-Unit = MeasuredUnit | SegmentationUnit | DesignUnit
+AnyUnit = Unit[Experiment]
 
 
 @dataclass(frozen=True, eq=False)
 class UnitResult:
-    """What became of a unit."""
+    """Result of a unit: its records and pictures."""
 
     records: pd.DataFrame  # one row a view, method (or way) and rock: true, found or both
     pictures: tuple[Picture, ...]
@@ -70,71 +46,43 @@ class UnitResult:
         return self.portraits
 
 
-def units_of(suite: Suite) -> tuple[Unit, ...]:
+def units_of(suite: Suite) -> tuple[AnyUnit, ...]:
     """Return all units of a suite, in the order of their records."""
-    units: list[Unit] = []
-    for experiment in suite.experiments:
-        if isinstance(experiment, YardExperiment):
-            units += [
-                SceneUnit(experiment, step, scene, suite.measures)
-                for step in experiment.series
-                for scene in range(experiment.scenes)
-            ]
-        elif isinstance(experiment, SegmentationExperiment):
-            units += [SegmentationUnit(experiment, scene) for scene in range(experiment.scenes)]
-        elif isinstance(experiment, DesignExperiment):
-            units += [DesignUnit(experiment, scene) for scene in range(experiment.scenes)]
-        else:
-            units += [
-                DrawingUnit(experiment, series, drawing, suite.measures)
-                for series in experiment.series
-                for drawing in range(experiment.drawings)
-            ]
-    return tuple(units)
+    return tuple(
+        Unit(
+            experiment,
+            series,
+            scene,
+            measures=suite.measures if experiment.takes_measures else (),
+            plugins=suite.plugins,
+        )
+        for experiment in suite.experiments
+        for series, scene in experiment.units
+    )
 
 
-def describe(unit: Unit) -> str:
+def describe(unit: AnyUnit) -> str:
     """Return a unit's name for the progress."""
-    series = unit.series if isinstance(unit, MeasuredUnit) else ""
-    words = (unit.experiment.name, series, str(unit.experiment.seed + unit.scene))
+    words = (unit.experiment.name, unit.series, str(unit.experiment.seed + unit.scene))
     return " ".join(word for word in words if word)
 
 
-def spec_of(unit: Unit) -> dict[str, object]:
-    """Return all that a unit's result depends on but the code, as plain values.
-
-    How many scenes there are, what they vary and what they are called is of no account.
-    """
-    spec: dict[str, object] = msgspec.to_builtins(unit.experiment)
-    for name in ("title", "scenes", "drawings", "varied", "pictured"):
-        spec.pop(name, None)
-    spec |= {
-        "scene_number": unit.scene,
-        "pictured": is_pictured(unit),
-        "portrayed": is_portrayed(unit),
+def spec_of(unit: AnyUnit) -> dict[str, object]:
+    """Return everything that a unit's result depends on but the code, as plain values."""
+    return {
+        "experiment": unit.experiment.dependencies(unit.series, unit.scene),
+        "unit": (unit.series, unit.scene),
+        "measures": [
+            {"name": m.name, "function": m.function, "command": m.command}
+            | {"source": source_digest(m)}
+            for m in unit.measures
+        ],
+        "plugins": [(plugin, _plugin_digest(plugin)) for plugin in unit.plugins],
     }
-    if isinstance(unit, SegmentationUnit | DesignUnit):
-        return spec
-    spec["measures"] = [
-        {"name": m.name, "function": m.function, "command": m.command, "source": source_digest(m)}
-        for m in unit.measures
-    ]
-    spec["series"] = unit.series
-    if isinstance(unit, SceneUnit):
-        spec["scene"] = msgspec.to_builtins(unit.experiment.scene_at(unit.series))
-        spec.pop("sweep")
-    return spec
 
 
-def is_pictured(unit: Unit) -> bool:
-    """Whether the unit's whole views are kept."""
-    if isinstance(unit, DesignUnit):
-        return False
-    return unit.scene < (1 if isinstance(unit, DrawingUnit) else unit.experiment.pictured)
-
-
-def is_portrayed(unit: Unit) -> bool:
-    """Whether each rock's portrait is kept: not where no scene is to be pictured."""
-    if isinstance(unit, SegmentationUnit | DesignUnit):
-        return False
-    return isinstance(unit, DrawingUnit) or unit.experiment.pictured > 0
+@cache
+def _plugin_digest(plugin: str) -> str:
+    """Return the SHA-256 of the file of a plug-in's module."""
+    file = inspect.getsourcefile(load_plugin(plugin))
+    return sha256(Path(file).read_bytes()).hexdigest() if file else ""

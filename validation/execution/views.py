@@ -1,4 +1,8 @@
-"""Views: a unit's scene or drawing made in a temporary folder, and read back with its truth."""
+"""View of a rendered scene: the observation that a camera makes, with the truth about its rocks.
+
+The one place that turns a scene into what is measured. `dataset_views` goes through the files of a
+dataset, as a user would; `captured_view` takes a capture as it is.
+"""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -6,28 +10,121 @@ from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-import msgspec
 import numpy as np
 import pandas as pd
 import scipy.ndimage as ndi
 from numpy.typing import NDArray
 
-from rockshape.io import read_camera, read_image, read_labels, read_range
+from rockshape.camera.camera import Camera
+from rockshape.io import read_camera, read_image, read_range
 from rockshape.observation import Observation
+from synth.camera.camera import RenderCamera
 from synth.dataset.write import write_common, write_scene
 from synth.render import choose_backend
-from synth.shapes import write_series
-from validation.execution.units import DrawingUnit, MeasuredUnit, SceneUnit
-from validation.records.join import RecordKey
+from synth.render.view import RenderedView
+from synth.sensor.sensor import Capture
+from synth.spec import SceneSpec
 from validation.records.truth import (
+    RockInView,
     SceneTruth,
     read_instances,
     read_scene_truth,
-    read_shape_truth,
     rock_columns,
     view_columns,
 )
-from validation.suite.experiments import YardExperiment
+
+
+@dataclass(frozen=True, eq=False)
+class SceneView:
+    """One view of a scene."""
+
+    number: int
+    image: NDArray[np.float32]  # (rows, cols), 0..1
+    camera: Camera
+    points_m: NDArray[np.float64]  # (rows, cols, 3) in the camera frame, as the sensor has them
+    exact_m: NDArray[np.float64]  # (rows, cols, 3), without noise
+    instances: NDArray[np.int32]  # (rows, cols), rock i as i + 1
+    rocks: tuple[RockInView, ...]  # what the view shows of each
+    truth: pd.DataFrame  # one row a rock: its own truth and that of the view
+
+    def observation(self, points_m: NDArray[np.float64] | None) -> Observation:
+        """Return the view with range as given, or without any."""
+        return Observation(image=self.image, points_m=points_m, camera=self.camera)
+
+
+def dataset_views(spec: SceneSpec, *, exact: bool = False) -> tuple[list[SceneView], str]:
+    """Return the views of scene 0 of a spec, written and read back, and the renderer.
+
+    With `exact`, exact range is read too where the sensor's has noise; otherwise it is the same.
+    """
+    backend = choose_backend(spec.renderer)
+    with _data_folder() as folder:
+        write_scene(spec, 0, backend, folder)
+        write_common(spec, backend, folder)
+        camera = read_camera(folder / "camera.json")
+        scene = folder / "000000"
+        truth = read_scene_truth(scene / "scene_gt_shape.json")
+        exact_folder = "depth_true" if exact and spec.noise.kind != "none" else "depth"
+        views = []
+        for number in range(spec.views.count):
+            name = f"{number:06d}.png"
+            image = read_image(scene / "gray" / name)
+            points_m = read_range(scene / "depth" / name, shape=image.shape, camera=camera)
+            exact_m = points_m
+            if exact_folder != "depth":
+                exact_m = read_range(scene / exact_folder / name, shape=image.shape, camera=camera)
+            views.append(
+                _view(
+                    number,
+                    image,
+                    camera=camera,
+                    ranges_m=(points_m, exact_m),
+                    instances=read_instances(scene / "labels" / name),
+                    truth=truth,
+                )
+            )
+    return views, backend
+
+
+def captured_view(
+    number: int, lens: RenderCamera, rendered: RenderedView, capture: Capture, truth: SceneTruth
+) -> SceneView:
+    """Return a view from the renderer's exact depth and labels and what the sensor made of them."""
+    white = np.iinfo(capture.picture.dtype).max
+    camera = Camera(lens.fx, lens.fy, lens.cx, lens.cy, lens.width, lens.height)
+    return _view(
+        number,
+        (capture.picture / white).astype(np.float32),
+        camera=camera,
+        ranges_m=(camera.unproject(capture.depth_m), camera.unproject(rendered.depth_m)),
+        instances=rendered.labels.astype(np.int32),
+        truth=truth,
+    )
+
+
+def _view(
+    number: int,
+    image: NDArray[np.float32],
+    *,
+    camera: Camera,
+    ranges_m: tuple[NDArray[np.float64], NDArray[np.float64]],
+    instances: NDArray[np.int32],
+    truth: SceneTruth,
+) -> SceneView:
+    rocks = truth.views[str(number)]
+    shown = pd.DataFrame([view_columns(rock) for rock in rocks])
+    shown = shown.merge(_true_centres(instances), on="instance", how="left")
+    own = pd.DataFrame([rock_columns(rock) for rock in truth.rocks])
+    return SceneView(
+        number=number,
+        image=image,
+        camera=camera,
+        points_m=ranges_m[0],
+        exact_m=ranges_m[1],
+        instances=instances,
+        rocks=rocks,
+        truth=own.merge(shown, on="instance", how="inner"),
+    )
 
 
 def _true_centres(instances: NDArray[np.int32]) -> pd.DataFrame:
@@ -39,93 +136,17 @@ def _true_centres(instances: NDArray[np.int32]) -> pd.DataFrame:
     return table
 
 
-def _view_truth(
-    scene: SceneTruth, view: int, instances: NDArray[np.int32], *, experiment: YardExperiment
-) -> pd.DataFrame:
-    """Return the truth of one view, one row a rock; `eligible` rocks stand in plain view."""
-    rocks = pd.DataFrame([rock_columns(rock) for rock in scene.rocks])
-    shown = pd.DataFrame(
-        [
-            view_columns(rock)
-            | {
-                "eligible": not rock.truncated
-                and rock.visible_fraction >= experiment.min_visible_fraction,
-            }
-            for rock in scene.views[str(view)]
-        ]
-    )
-    shown = shown.merge(_true_centres(instances), on="instance", how="left")
-    return rocks.merge(shown, on="instance", how="inner")
-
-
-@dataclass(frozen=True, eq=False)
-class ViewCase:
-    """One view with its truth, ready to be measured by every method."""
-
-    place: RecordKey  # with the method yet to be named
-    observation: Observation
-    given: NDArray[np.int32] | None  # labels (rows, cols), or None where rocks are to be found
-    instances: NDArray[np.int32]
-    truth: pd.DataFrame
-    min_iou: float
-
-
-def _scene_views(unit: SceneUnit, folder: Path) -> tuple[list[ViewCase], str]:
-    experiment = unit.experiment
-    scene_spec = experiment.scene_at(unit.series)
-    spec = msgspec.structs.replace(scene_spec, seed=experiment.seed + unit.scene)
-    backend = choose_backend(spec.renderer)
-    write_scene(spec, 0, backend, folder)
-    write_common(spec, backend, folder)
-    camera = read_camera(folder / "camera.json")
-    scene = folder / "000000"
-    truth = read_scene_truth(scene / "scene_gt_shape.json")
-    views = []
-    for number in range(spec.views.count):
-        name = f"{number:06d}.png"
-        image = read_image(scene / "gray" / name)
-        points_m = read_range(scene / "depth" / name, shape=image.shape, camera=camera)
-        instances = read_instances(scene / "labels" / name)
-        views.append(
-            ViewCase(
-                place=RecordKey(
-                    experiment.name, "yard", unit.series, unit.scene, spec.seed, number, ""
-                ),
-                observation=Observation(image=image, points_m=points_m, camera=camera),
-                given=instances if experiment.labels == "true" else None,
-                instances=instances,
-                truth=_view_truth(truth, number, instances, experiment=experiment),
-                min_iou=experiment.min_iou,
-            )
-        )
-    return views, backend
-
-
-def _drawing_view(unit: DrawingUnit, folder: Path) -> ViewCase:
-    experiment = unit.experiment
-    seed = experiment.seed + unit.scene
-    write_series(unit.series, folder, count=experiment.count, seed=seed)
-    image = read_image(folder / "image.png")
-    return ViewCase(
-        place=RecordKey(experiment.name, "shapes", unit.series, unit.scene, seed, 0, ""),
-        observation=Observation(image=image),
-        given=read_labels(folder / "labels.png", shape=image.shape).to_labels(),
-        instances=read_instances(folder / "labels.png"),
-        truth=read_shape_truth(folder / "truth.csv").assign(eligible=True),
-        min_iou=0.5,
-    )
+def with_eligibility(truth: pd.DataFrame, *, min_visible_fraction: float) -> pd.DataFrame:
+    """Return a view's truth with the column `eligible`: wholly in the frame and in plain view."""
+    eligible = ~truth["truth_truncated"].astype(bool)
+    eligible &= truth["truth_visible_fraction"] >= min_visible_fraction
+    told = truth.copy()
+    told.insert(list(truth.columns).index("truth_row"), "eligible", eligible)
+    return told
 
 
 @contextmanager
-def data_folder() -> Iterator[Path]:
+def _data_folder() -> Iterator[Path]:
     """Name a folder for a unit's data that is gone after it."""
     with TemporaryDirectory(prefix="rockshape-") as parent:
         yield Path(parent) / "data"
-
-
-def views_of(unit: MeasuredUnit) -> tuple[list[ViewCase], str]:
-    """Make a unit's scene or drawing in a temporary folder; return its views and the renderer."""
-    with data_folder() as folder:
-        if isinstance(unit, SceneUnit):
-            return _scene_views(unit, folder)
-        return [_drawing_view(unit, folder)], ""

@@ -1,76 +1,43 @@
-"""The work of a unit: made, measured (or segmented) and matched, a pure function of its spec."""
+"""Work of a unit: made, measured (or segmented) and matched, a pure function of its spec."""
 
-from dataclasses import replace
+from importlib import import_module
+from typing import Protocol, TypeVar, cast
 
-import pandas as pd
+from validation.execution.measured import ViewCase
+from validation.execution.units import AnyUnit, Unit, UnitResult
+from validation.suite.experiment import Experiment
+from validation.suite.plugins import load_plugin
+from validation.suite.registry import kind_of
 
-from rockshape.measurement import to_frame
-from rockshape.pipeline import measure
-from validation.execution.units import (
-    DesignUnit,
-    MeasuredUnit,
-    SegmentationUnit,
-    Unit,
-    UnitResult,
-    is_pictured,
-    is_portrayed,
-)
-from validation.execution.views import ViewCase, data_folder, views_of
-from validation.kinds.design.work import run_design
-from validation.kinds.segmentation.work import run_scene
-from validation.peers import Seen, run_measure
-from validation.records.join import join
-from validation.records.rock_thumbnails import portraits, whole_view
+E_contra = TypeVar("E_contra", bound=Experiment, contravariant=True)
 
 
-def _measure_view(view: ViewCase, unit: MeasuredUnit) -> UnitResult:
-    """Measure a view by the methods, then by measures from elsewhere on the first one's labels."""
-    image = view.observation.image
-    found = [
-        measure(view.observation, method=method, labels=view.given)
-        for method in unit.experiment.methods
-    ]
-    labels = found[0].labels
-    tables = [(each.method, each.labels, to_frame(each)) for each in found]
-    seen = Seen(image, labels, view.observation.points_m)
-    tables += [(spec.name, labels, run_measure(spec, seen)) for spec in unit.measures]
-    records = pd.concat(
-        [
-            join(
-                replace(view.place, method=method),
-                view.truth,
-                view.instances,
-                own_labels,
-                table,
-                min_iou=view.min_iou,
-            )
-            for method, own_labels, table in tables
-        ],
-        ignore_index=True,
-    )
-    return UnitResult(
-        records,
-        pictures=(whole_view(image, found[0], view.place),) if is_pictured(unit) else (),
-        backend="",
-        portraits=portraits(image, found, view.instances, records, view.place)
-        if is_portrayed(unit)
-        else (),
-    )
+class Work(Protocol[E_contra]):
+    """Module of a kind that does its units, in a worker; it imports no scores and no report."""
+
+    def run(self, unit: Unit[E_contra], /) -> UnitResult:
+        """Make, measure and match one unit."""
 
 
-def run_unit(unit: Unit) -> UnitResult:
+class MeasuredWork(Work[E_contra], Protocol[E_contra]):
+    """Work of a kind whose claims are held against measured views, for the mutation bench."""
+
+    def views(self, unit: Unit[E_contra], /) -> tuple[list[ViewCase], str]:
+        """Return the views of a unit and the renderer."""
+
+
+def work_of(experiment: Experiment) -> Work[Experiment]:
+    """Import the work of an experiment's kind."""
+    return cast(Work[Experiment], import_module(kind_of(experiment).work))
+
+
+def run_unit(unit: AnyUnit) -> UnitResult:
     """Make, measure (or segment) and match one unit."""
-    if isinstance(unit, SegmentationUnit):
-        with data_folder() as folder:
-            return UnitResult(*run_scene(unit.experiment, unit.scene, folder))
-    if isinstance(unit, DesignUnit):
-        records, backend = run_design(unit.experiment, unit.scene)
-        return UnitResult(records=records, pictures=(), backend=backend)
-    views, backend = views_of(unit)
-    measured = [_measure_view(view, unit) for view in views]
-    return UnitResult(
-        records=pd.concat([view.records for view in measured], ignore_index=True),
-        pictures=tuple(picture for view in measured for picture in view.pictures),
-        backend=backend,
-        portraits=tuple(portrait for view in measured for portrait in view.portraits),
-    )
+    for plugin in unit.plugins:
+        load_plugin(plugin)
+    return work_of(unit.experiment).run(unit)
+
+
+def views_of(unit: AnyUnit) -> list[ViewCase]:
+    """Return the views of a unit, not yet measured."""
+    return cast(MeasuredWork[Experiment], work_of(unit.experiment)).views(unit)[0]

@@ -1,1 +1,1 @@
-"""Kinds of experiments, a folder each."""
+"""Kinds of experiments, a folder each, found by their `KIND`; nothing else names them."""

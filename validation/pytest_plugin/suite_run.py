@@ -11,15 +11,15 @@ import pytest
 
 from synth.errors import MissingBackendError
 from validation.errors import InputError, MissingPackageError, WorkerError
-from validation.execution.executors import local
-from validation.execution.run import Run, default_jobs, prepare, run_suite
+from validation.execution.executors import default_jobs, local
+from validation.execution.run import Run, prepare, run_suite
 from validation.execution.store import UnitStore, unit_key
 from validation.execution.units import units_of
-from validation.kinds.scoring import score_names
 from validation.peers.parse import settle
 from validation.pytest_plugin.gate_outcome import GateOutcome, Outcome, SuiteError
 from validation.pytest_plugin.shared import keep_recent, kept_folder, locked, shared_folder
 from validation.report import check_target, write_run
+from validation.scores.scoring import score_names
 from validation.suite.gates import GateResult, check_names
 from validation.suite.suite import Suite, load_suite
 

@@ -1,7 +1,7 @@
 """The truth that a dataset carries: shape per rock, visibility per view, and label images."""
 
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import cv2
 import msgspec
@@ -10,6 +10,7 @@ import pandas as pd
 from msgspec import Struct
 from numpy.typing import NDArray
 
+from synth.dataset.files import plain
 from validation.errors import InputError
 
 
@@ -41,6 +42,11 @@ class SceneTruth(Struct, frozen=True, kw_only=True):
 
     rocks: tuple[RockTruth, ...]
     views: dict[str, tuple[RockInView, ...]]
+
+
+def as_scene_truth(table: dict[str, Any]) -> SceneTruth:
+    """Return a scene's truth from the table that `scene_gt_shape.json` is written from."""
+    return msgspec.convert(plain(table), SceneTruth)
 
 
 _T = TypeVar("_T")

@@ -1,14 +1,15 @@
 """Pictures of whole views as the page shows them."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from markupsafe import Markup
 
 from validation.execution.run import AnyPicture, Run
+from validation.records.join import RecordKey
 from validation.records.pictures import UNITS, Mark, Portrait
 from validation.report.embed import centre, data_uri, mark_lines
-from validation.report.page_selection import RockKey
+from validation.report.rock_key import RockKey
 
 MAX_PICTURE_BYTES = 1_200_000  # base64 makes them a third more
 
@@ -38,14 +39,25 @@ class ShownPicture:
 
 
 def shown_pictures(
-    run: Run, name: str, chosen: Mapping[RockKey, Sequence[Portrait]], *, share: float = 1.0
+    run: Run,
+    name: str,
+    chosen: Mapping[RockKey, Sequence[Portrait]],
+    *,
+    words: Callable[[RecordKey], tuple[str, str]],
+    share: float = 1.0,
 ) -> tuple[ShownPicture, ...]:
-    """Return the pictures of an experiment, its part of what the page has room for."""
+    """Return the pictures of an experiment, its part of what the page has room for.
+
+    `words` says what the picture of a place shows, in full and as a caption.
+    """
     spent = sum(p.size_bytes for p in run.pictures)
     part = min(1.0, share * MAX_PICTURE_BYTES / spent) if spent else 1.0
     own = [p for p in run.pictures if p.place.experiment == name]
     places = _places(chosen)
-    return tuple(_shown(picture, places) for picture in own[: max(1, int(part * len(own)))])
+    return tuple(
+        _shown(picture, places, words(picture.place))
+        for picture in own[: max(1, int(part * len(own)))]
+    )
 
 
 def _places(
@@ -60,27 +72,12 @@ def _places(
     }
 
 
-def _words(picture: AnyPicture) -> tuple[str, str]:
-    """Return what a picture shows, in full and as a caption."""
-    place = picture.place
-    if place.kind == "segmentation":
-        return (
-            f"Rocks of seed {place.seed} by {place.series}: true borders blue, found yellow",
-            f"{place.series}, seed {place.seed}, view {place.view + 1}",
-        )
-    if place.kind == "shapes":
-        return (
-            f"Shapes of the series {place.series} with their outlines and fitted ellipses",
-            f"series {place.series}, seed {place.seed}",
-        )
-    caption = f"seed {place.seed}, view {place.view + 1}"
-    return f"Rocks of {caption}, outlined and numbered", caption
-
-
 def _shown(
-    picture: AnyPicture, places: Mapping[tuple[str, str, int, int, str, int], str]
+    picture: AnyPicture,
+    places: Mapping[tuple[str, str, int, int, str, int], str],
+    words: tuple[str, str],
 ) -> ShownPicture:
-    text, caption = _words(picture)
+    text, caption = words
     place = picture.place
 
     def shown(mark: Mark) -> ShownMark:

@@ -6,11 +6,12 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from validation.errors import InputError
+from validation.execution.recorded import FORMAT
 from validation.execution.run import Run
 from validation.execution.store import FOLDER, is_store
 from validation.report.junit import junit_xml
 from validation.report.page import page_html
-from validation.report.scores_json import FORMAT, scores_json
+from validation.report.scores_json import scores_json
 from validation.report.summary import summary_markdown
 
 SCORES = "scores.json"

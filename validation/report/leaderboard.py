@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 from validation.execution.run import Run
 from validation.report.format import interval, number
-from validation.scores.expectations import all_claims
+from validation.scores.expectations import TRUTH
+from validation.scores.judge import judge_of
 from validation.scores.score import Key, Score
-from validation.suite.experiments import YardExperiment
 
 _TRUTHS = {
     "truth_angularity": "angularity",
@@ -39,16 +39,19 @@ class Board:
 
 
 def leaderboards(run: Run) -> tuple[Board, ...]:
-    """Return a board for each experiment but sweeps and each truth, the best order first."""
+    """Return a board for each experiment that has one and each truth, the best order first."""
     scores = {score.name: score for score in run.scores}
     entries: dict[tuple[str, str], list[tuple[Score, float]]] = {}
-    swept = {e.name for e in run.suite.experiments if isinstance(e, YardExperiment) and e.sweep}
-    for claim in all_claims(run.suite):
-        if claim.experiment in swept:
-            continue
+    claims = [
+        claim
+        for experiment in run.suite.experiments
+        for claim in judge_of(experiment).ranked_claims(experiment, run.suite.measures)
+    ]
+    for claim in claims:
         parts = (claim.experiment, claim.method, claim.series, claim.measure)
         cv = scores.get(Key(*parts, "cv").name)
-        board = entries.setdefault((claim.experiment, _TRUTHS[claim.truth]), [])
+        truth = _TRUTHS.get(claim.truth, claim.truth.removeprefix(TRUTH))
+        board = entries.setdefault((claim.experiment, truth), [])
         board.append((scores[Key(*parts, "tau").name], math.nan if cv is None else cv.value))
     return tuple(
         Board(experiment, truth, _ranked(found)) for (experiment, truth), found in entries.items()

@@ -1,32 +1,17 @@
-"""The page: one HTML file that needs nothing else."""
+"""Page of a run: one HTML file that needs nothing else."""
 
-import math
 from importlib.resources import files
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
-from markupsafe import Markup, escape
+from markupsafe import Markup
 
 from validation.execution.run import Run
-from validation.kinds.garden.scores import is_garden
-from validation.paper import CONSISTENCY_TABLES
-from validation.report.charts import mark_symbols, span, view_key
-from validation.report.format import interval, number
-from validation.report.garden import garden_tables
+from validation.report.charts import mark_symbols
 from validation.report.leaderboard import leaderboards
 from validation.report.page_selection import choose
-from validation.report.paper import paper_values
 from validation.report.provenance import seeds, versions
-from validation.report.sections import (
-    Room,
-    segmentation_section,
-    shapes_section,
-    yard_section,
-)
-from validation.report.sweeps import sweep_section
-from validation.scores.agreement import STATISTICS
-from validation.scores.expectations import all_claims
-from validation.scores.titles import REFERENCE, title_of
-from validation.suite.experiments import SegmentationExperiment, ShapesExperiment, YardExperiment
+from validation.report.section import Room, page_of
+from validation.report.template import render
+from validation.scores.scoring import all_claims
 
 MAX_BYTES = 5_000_000  # of the page
 SHARES = (1.0, 0.6, 0.3, 0.1, 0.0)  # of the room below, tried one after another until it fits
@@ -35,32 +20,8 @@ _POINTS = 6_000  # of all charts
 _MIN_POINTS = 40  # of a chart
 
 
-def _breakable(name: str) -> Markup:
-    """Return a score's name that a line may break after a dot or an underscore."""
-    return Markup(str(escape(name)).replace(".", ".<wbr>").replace("_", "_<wbr>"))
-
-
 def _resource(name: str) -> Markup:
     return Markup((files("validation.report") / name).read_text(encoding="utf-8"))
-
-
-def _beside_paper(run: Run, experiment: YardExperiment) -> list[dict[str, object]]:
-    """Return one row a statistic: the paper's value and ours for each of its three measures."""
-    ours = {score.name: score for score in run.scores}
-    paper = paper_values()
-    return [
-        {
-            "title": statistic.title,
-            "cells": [
-                (
-                    paper[measure][statistic.key],
-                    ours[f"{experiment.name}.{measure}.{statistic.key}"],
-                )
-                for measure in CONSISTENCY_TABLES
-            ],
-        }
-        for statistic in STATISTICS
-    ]
 
 
 def page_html(run: Run, *, command: str, seconds: float) -> str:
@@ -74,30 +35,15 @@ def page_html(run: Run, *, command: str, seconds: float) -> str:
 
 
 def _page(run: Run, share: float, *, command: str, seconds: float) -> str:
-    environment = Environment(
-        loader=PackageLoader("validation.report"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters |= {"number": number, "title_of": title_of, "breakable": _breakable}
-    environment.globals |= {
-        "interval": interval,
-        "view_key": view_key,
-        "isfinite": math.isfinite,
-        "span": span,
-    }
     points = share * _POINTS / max(1, len(all_claims(run.suite)))
     room = Room(
         chosen=choose(run, share * _ROCKS_BYTES),
         most_points=max(_MIN_POINTS, int(points)),
         share=share,
     )
-    experiments = run.suite.experiments
-    of_rocks = [e for e in experiments if isinstance(e, YardExperiment)]
-    yards = [experiment for experiment in of_rocks if experiment.sweep is None]
-    html: str = environment.get_template("page.html").render(
+    sections = [(e.name, page_of(e).section(run, e, room)) for e in run.suite.experiments]
+    return render(
+        "page.html",
         run=run,
         style=_resource("page.css") + _resource("rocks.css"),
         script=_resource("page.js"),
@@ -105,27 +51,10 @@ def _page(run: Run, share: float, *, command: str, seconds: float) -> str:
         passed=[gate for gate in run.gates if gate.passed],
         failed=[gate for gate in run.gates if not gate.passed],
         scores={score.name: score for score in run.scores},
-        yards=[yard_section(run, experiment, room) for experiment in yards],
-        beside={
-            e.name: _beside_paper(run, e)
-            for e in yards
-            if "angularity" in e.varied and REFERENCE in e.methods and not is_garden(e)
-        },
-        gardens={e.name: garden_tables(run, e) for e in yards if is_garden(e)},
-        sweeps=[sweep_section(run, e, room) for e in of_rocks if e.sweep is not None],
-        segmentations=[
-            segmentation_section(run, e, room)
-            for e in experiments
-            if isinstance(e, SegmentationExperiment)
-        ],
-        shapes=[
-            shapes_section(run, e, room) for e in experiments if isinstance(e, ShapesExperiment)
-        ],
-        tables=CONSISTENCY_TABLES,
+        sections=[(name, section) for name, section in sections if section],
         boards=leaderboards(run),
         command=command,
         minutes=f"{seconds:.0f} s",
         versions=versions(),
         seeds=seeds(run),
     )
-    return html

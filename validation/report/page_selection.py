@@ -1,9 +1,8 @@
-"""Which rocks the page shows one by one: all where they are few, else those worth a look."""
+"""Selection of the rocks that the page shows: all where they are few, else the outliers."""
 
 from collections.abc import Iterator
 from functools import cache
 from itertools import chain, zip_longest
-from typing import NamedTuple
 
 import pandas as pd
 
@@ -11,64 +10,29 @@ from rockshape.method import methods
 from validation.execution.run import Run
 from validation.records.pictures import Portrait
 from validation.report.rank_error import farthest
-from validation.scores.expectations import all_claims
-from validation.suite.experiments import SegmentationExperiment, YardExperiment
+from validation.report.rock_key import RockKey, keys_of
+from validation.report.section import page_of
+from validation.scores.scoring import all_claims
 
 FARTHEST = 24  # of each claim, and of what was missed or taken for a rock
 _ROCK_BYTES, _VALUE_BYTES = 900, 110  # of a view's row and panel, and of each value there
 _MARK_BYTES = 7  # of a point of an outline
 
 
-class RockKey(NamedTuple):
-    """A true rock, or a thing that a method took for one in one view."""
-
-    experiment: str
-    series: str
-    scene: int
-    instance: int | None
-    view: int = 0  # of a thing that is no true rock
-    method: str = ""
-    rock: int = 0
-
-    @property
-    def id(self) -> str:
-        """The name of the rock's place in the page."""
-        parts = [self.experiment, self.series, str(self.scene)]
-        if self.instance is None:
-            parts += [f"x{self.view}", self.method, str(self.rock)]
-        else:
-            parts.append(str(self.instance))
-        return "rock-" + "-".join(part for part in parts if part)
-
-
-def keys_of(records: pd.DataFrame) -> list[RockKey]:
-    """Return the key of each record."""
-    names = ("experiment", "series", "scene", "view", "method", "instance", "rock")
-    columns = (records[name].astype(object).tolist() for name in names)
-    return [
-        RockKey(experiment, series, int(scene), None, int(view), method, int(rock))
-        if pd.isna(instance)
-        else RockKey(experiment, series, int(scene), int(instance))
-        for experiment, series, scene, view, method, instance, rock in zip(*columns, strict=True)
-    ]
-
-
-def _pictured(run: Run) -> dict[str, int]:
-    return {
-        e.name: e.pictured if isinstance(e, YardExperiment) else 1
-        for e in run.suite.experiments
-        if not isinstance(e, SegmentationExperiment)
-    }
+def _scenes_shown(run: Run) -> dict[str, int]:
+    """Return, for each experiment that shows its rocks one by one, how many scenes come first."""
+    shown = {e.name: page_of(e).scenes_shown(e) for e in run.suite.experiments}
+    return {name: scenes for name, scenes in shown.items() if scenes is not None}
 
 
 def _measured(run: Run) -> pd.DataFrame:
-    """Return the records of rocks and shapes.
+    """Return the records of rocks and shapes that can be shown.
 
     What is no true rock counts once: measures from elsewhere stand on the first method's masks.
     """
     records = run.records
     again = records["status"].eq("extra") & ~records["method"].isin(list(methods()))
-    return records[~again & records["kind"].ne("segmentation")]
+    return records[~again & records["experiment"].isin(list(_scenes_shown(run)))]
 
 
 def outliers(run: Run) -> list[RockKey]:
@@ -92,7 +56,7 @@ def _candidates(run: Run) -> Iterator[RockKey]:
     measured = _measured(run)
     if measured.empty:
         return
-    shown = measured["scene"] < measured["experiment"].map(_pictured(run))
+    shown = measured["scene"] < measured["experiment"].map(_scenes_shown(run))
     yield from keys_of(measured[shown])
     yield from outliers(run)
     for start in range(0, len(measured), 1000):

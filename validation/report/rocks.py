@@ -7,17 +7,15 @@ import numpy as np
 import pandas as pd
 from markupsafe import Markup
 
-from rockshape.method import methods
+from rockshape.method import find_method
 from validation.execution.run import Run
 from validation.records.pictures import Portrait
 from validation.report.embed import symbols
-from validation.report.page_selection import RockKey, keys_of
 from validation.report.rank_error import ranks_off
-from validation.scores.expectations import claims_of
+from validation.report.rock_key import RockKey, keys_of
+from validation.scores.scoring import claims_of
 from validation.scores.titles import title_of, unit_of
-from validation.suite.experiments import ShapesExperiment, YardExperiment
-
-Measured = YardExperiment | ShapesExperiment
+from validation.suite.experiment import MeasuredExperiment
 
 TRUTHS = {
     "truth_angularity": "true angularity",
@@ -25,6 +23,18 @@ TRUTHS = {
     "truth_axis_ratio": "true axis ratio",
     "truth_rectangle_ratio": "true side ratio",
 }
+
+
+@dataclass(frozen=True)
+class Subject:
+    """What is measured in an experiment, as the page speaks of it."""
+
+    what: str = "rock"
+    several_views: bool = True
+    outlines_only: bool = False  # there is no range
+
+
+ROCKS = Subject()
 
 
 @dataclass(frozen=True)
@@ -81,7 +91,8 @@ class ShownRock:
 class RockTable:
     """The rocks of an experiment that the page shows."""
 
-    experiment: Measured
+    experiment: MeasuredExperiment
+    subject: Subject
     truths: tuple[str, ...]  # titles
     columns: tuple[Column, ...]
     rocks: tuple[ShownRock, ...]
@@ -98,13 +109,14 @@ class RockTable:
         return sum(rock.key.instance is not None for rock in self.rocks)
 
 
-def _columns(run: Run, experiment: Measured, records: pd.DataFrame) -> tuple[Column, ...]:
-    flat = isinstance(experiment, ShapesExperiment)
+def _columns(
+    run: Run, experiment: MeasuredExperiment, records: pd.DataFrame, subject: Subject
+) -> tuple[Column, ...]:
     columns = [
         Column(method, measure.column, measure.title, measure.unit)
         for method in experiment.methods
-        for measure in methods()[method].measures
-        if not (flat and measure.needs_range)
+        for measure in find_method(method).measures
+        if not (subject.outlines_only and measure.needs_range)
     ]
     columns += [
         Column(spec.name, column, title_of(column), unit_of(column))
@@ -118,7 +130,10 @@ Record = Mapping[str, object]
 
 
 def rock_table(
-    run: Run, experiment: Measured, chosen: Mapping[RockKey, Sequence[Portrait]]
+    run: Run,
+    experiment: MeasuredExperiment,
+    chosen: Mapping[RockKey, Sequence[Portrait]],
+    subject: Subject = ROCKS,
 ) -> RockTable:
     """Return the chosen rocks of an experiment in the order of its scenes.
 
@@ -138,7 +153,7 @@ def rock_table(
         for index, ranks in ranks_off(near, claim).items()
     }
     truths = tuple(name for name in TRUTHS if name in near and near[name].notna().any())
-    maker = _Maker(_columns(run, experiment, own), truths, off)
+    maker = _Maker(_columns(run, experiment, own, subject), truths, off, subject.what)
     rows: dict[RockKey, list[tuple[int, Record]]] = {}
     records: list[dict[Hashable, object]] = near.to_dict(orient="records")
     for index, record, key in zip(near.index.tolist(), records, keys_of(near), strict=True):
@@ -147,6 +162,7 @@ def rock_table(
     true_rocks = own[own["status"] != "extra"][["series", "scene", "instance"]]
     return RockTable(
         experiment=experiment,
+        subject=subject,
         truths=tuple(TRUTHS[name] for name in truths),
         columns=maker.columns,
         rocks=tuple(maker.rock(key, rows[key], chosen[key]) for key in keys if key in rows),
@@ -161,6 +177,7 @@ class _Maker:
     columns: tuple[Column, ...]
     truths: tuple[str, ...]
     off: Mapping[tuple[str, str, int], int]  # by method, measure and index of the record
+    what: str
 
     def rock(
         self, key: RockKey, records: Sequence[tuple[int, Record]], portraits: Sequence[Portrait]
@@ -172,12 +189,11 @@ class _Maker:
             found = views.setdefault(int(str(record["view"])), {})
             found[str(record["method"])] = index, record
         pictured = {one.picture.place.view: one for one in portraits}
-        what = "rock" if first["kind"] == "yard" else "shape"
-        number = f"thing {key.rock}, no true {what}"
+        number = f"thing {key.rock}, no true {self.what}"
         return ShownRock(
             key=key,
             seed=int(str(first["seed"])),
-            name=number if key.instance is None else f"{what} {key.instance + 1}",
+            name=number if key.instance is None else f"{self.what} {key.instance + 1}",
             about=_about(first),
             truths=tuple(_float(first.get(truth)) for truth in self.truths),
             views=tuple(

@@ -9,12 +9,13 @@ from markupsafe import Markup
 from validation.execution.run import Run
 from validation.report.charts import Points, scatter
 from validation.report.format import number
-from validation.report.page_selection import RockKey, keys_of
 from validation.report.rank_error import farthest
-from validation.report.rocks import Measured
-from validation.scores.expectations import Claim, claims_of
+from validation.report.rock_key import RockKey, keys_of
+from validation.scores.expectations import TRUTH, Claim
 from validation.scores.score import Key, Score
+from validation.scores.scoring import claims_of
 from validation.scores.titles import title_of, title_of_claim, unit_of
+from validation.suite.experiment import Experiment
 
 TRUTH_TITLES = {
     "truth_angularity": "true angularity, 1 − roundness",
@@ -48,17 +49,34 @@ def tau_name(claim: Claim) -> str:
 
 
 def plots(
-    run: Run, experiment: Measured, shown: Collection[RockKey], *, most_points: int
+    run: Run,
+    experiment: Experiment,
+    shown: Collection[RockKey],
+    *,
+    most_points: int,
+    what: str = "rock",
 ) -> tuple[Plot, ...]:
     """Return a chart for each claim; with more points than `most_points`, the farthest alone."""
     scores = {score.name: score for score in run.scores}
     return tuple(
-        _plot(run, claim, shown, scores[tau_name(claim)], most_points)
+        _plot(run, claim, shown, scores[tau_name(claim)], most_points=most_points, what=what)
         for claim in claims_of(run.suite, experiment)
     )
 
 
-def _plot(run: Run, claim: Claim, shown: Collection[RockKey], tau: Score, most_points: int) -> Plot:
+def _words(truth: str) -> str:
+    return truth.removeprefix(TRUTH).replace("_", " ")
+
+
+def _plot(
+    run: Run,
+    claim: Claim,
+    shown: Collection[RockKey],
+    tau: Score,
+    *,
+    most_points: int,
+    what: str,
+) -> Plot:
     records = run.records
     own = records["experiment"].eq(claim.experiment) & records["method"].eq(claim.method)
     own &= records["series"].eq(claim.series) & records["eligible"].astype(bool)
@@ -72,7 +90,7 @@ def _plot(run: Run, claim: Claim, shown: Collection[RockKey], tau: Score, most_p
         drawn = np.flatnonzero(worth)
     picked = held.iloc[drawn]
     unit, title = unit_of(claim.measure), title_of_claim(claim)
-    what = "shape" if claim.series else "rock"
+    truth_title = TRUTH_TITLES.get(claim.truth, "true " + _words(claim.truth))
     labels = tuple(
         f"seed {seed}, view {view + 1}, {what} {instance + 1}: {number(value)}"
         for seed, view, instance, value in zip(
@@ -90,9 +108,9 @@ def _plot(run: Run, claim: Claim, shown: Collection[RockKey], tau: Score, most_p
             label=labels,
             place=tuple(key.id if key in shown else None for key in keys_of(picked)),
         ),
-        x_title=TRUTH_TITLES[claim.truth],
+        x_title=truth_title,
         y_title=f"{title}, {unit}" if unit else title,
-        summary=f"{title} against {TRUTH_TITLES[claim.truth]}, one point a rock and view",
+        summary=f"{title} against {truth_title}, one point a rock and view",
         unshown=f"rule-{claim.experiment}",
     )
     name = f"{title_of(claim.measure)}, {claim.method}"

@@ -5,13 +5,12 @@ import math
 
 import msgspec
 
+from validation.execution.recorded import FORMAT
 from validation.execution.run import Run
-from validation.report.paper import paper_values
+from validation.paper.statistics import paper_values
 from validation.report.provenance import seeds, versions
 from validation.scores.score import Score
 from validation.suite.gates import GateResult
-
-FORMAT = "rockshape validation run 2"
 
 
 def _number(value: float) -> float | None:

@@ -14,6 +14,7 @@ from validation.scores.titles import REFERENCE
 from validation.statistics.interval import bootstrap_interval
 
 BOOTSTRAP_SEED = 20020309
+VIEW_PREFIX = "view_"  # of statistics against what a view truly shows
 
 Better = Literal["higher", "lower", "neither"]
 

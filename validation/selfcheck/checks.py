@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from validation.kinds.multiview.scores import VIEW_PREFIX
-from validation.kinds.scoring import gate_scores
-from validation.scores.expectations import Claim, all_claims, all_view_claims
+from validation.scores.expectations import Claim
+from validation.scores.score import VIEW_PREFIX
+from validation.scores.scoring import all_claims, all_view_claims, gate_scores
 from validation.selfcheck.oracle import mixed, oracle, shuffled
 from validation.suite.gates import Gate, GateResult, evaluate
 from validation.suite.suite import Suite

@@ -1,18 +1,21 @@
 """Suites: experiments, and what their scores must reach; read from TOML."""
 
 import tomllib
+from collections.abc import Mapping
 from importlib.resources import files
 from pathlib import Path
-from typing import Annotated, TypeVar
+from typing import Annotated, Any
 
 import msgspec
 from msgspec import Meta, Struct, field
 
 from validation.errors import InputError
 from validation.peers import MeasureSpec, Name, Text, normalise_measures
-from validation.suite.experiments import Experiment, SegmentationExperiment
+from validation.suite.decode import decode, decode_experiment
+from validation.suite.experiment import Experiment
 from validation.suite.gates import Gate, GateFile
 from validation.suite.inherit import resolve_likes
+from validation.suite.plugins import load_plugin
 
 
 class Suite(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -23,6 +26,7 @@ class Suite(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     experiments: Annotated[tuple[Experiment, ...], Meta(min_length=1)] = field(name="experiment")
     gates: Annotated[tuple[Gate, ...], Meta(min_length=1)] = field(name="gate")
     measures: tuple[MeasureSpec, ...] = field(name="measure", default=())  # beside the methods
+    plugins: tuple[Text, ...] = ()  # modules that register methods and kinds; or module:METHOD
 
     def __post_init__(self) -> None:
         """Ask for names that differ: the scores' names begin with them."""
@@ -32,30 +36,58 @@ class Suite(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
                 raise ValueError(f"{what}: expected names that differ, found {', '.join(names)}")
 
 
+class _SuiteTable(Struct, forbid_unknown_fields=True, kw_only=True):
+    """A suite whose experiments are still tables: their kinds may come from its plug-ins."""
+
+    name: Name
+    title: Text
+    experiments: Annotated[tuple[dict[str, Any], ...], Meta(min_length=1)] = field(
+        name="experiment"
+    )
+    gates: Annotated[tuple[Gate, ...], Meta(min_length=1)] = field(name="gate")
+    measures: tuple[MeasureSpec, ...] = field(name="measure", default=())
+    plugins: tuple[Text, ...] = ()
+
+
+def as_suite(table: Mapping[str, Any], *, where: str) -> Suite:
+    """Return plain tables, as a suite's file or a run's scores.json has them, as a suite.
+
+    Raises:
+        InputError: a key or value that is not allowed, or a plug-in that cannot be imported.
+    """
+    head = decode(
+        normalise_measures(resolve_likes(dict(table), where=where)), _SuiteTable, where=where
+    )
+    for plugin in head.plugins:
+        load_plugin(plugin)
+    experiments = tuple(
+        decode_experiment(each, where=where, path=f"experiment[{index}]")
+        for index, each in enumerate(head.experiments)
+    )
+    try:
+        return Suite(
+            name=head.name,
+            title=head.title,
+            experiments=experiments,
+            gates=head.gates,
+            measures=head.measures,
+            plugins=head.plugins,
+        )
+    except ValueError as error:
+        raise InputError(f"{where}: {error}") from error
+
+
 def with_methods(suite: Suite, methods: tuple[str, ...]) -> Suite:
     """Return the suite with every experiment that measures measured by these methods."""
-    return msgspec.structs.replace(
-        suite,
-        experiments=tuple(
-            experiment
-            if isinstance(experiment, SegmentationExperiment)
-            else msgspec.structs.replace(experiment, methods=methods)
-            for experiment in suite.experiments
-        ),
-    )
+    experiments = tuple(each.measured_by(methods) for each in suite.experiments)
+    return msgspec.structs.replace(suite, experiments=experiments)
 
 
-_T = TypeVar("_T")
-
-
-def _convert(text: str, kind: type[_T], *, where: str) -> _T:
+def _parse(text: str, *, where: str) -> dict[str, Any]:
     try:
-        table = normalise_measures(resolve_likes(tomllib.loads(text), where=where))
-        return msgspec.convert(table, kind)
+        return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"{where}: expected TOML, found {error}") from error
-    except msgspec.ValidationError as error:
-        raise InputError(f"{where}: {error}") from error
 
 
 def _read(path: Path) -> str:
@@ -80,14 +112,15 @@ def load_suite(name_or_path: str) -> Suite:
         InputError: no such suite or file, or a key or value that is not allowed.
     """
     if name_or_path.endswith(".toml"):
-        return _convert(_read(Path(name_or_path)), Suite, where=name_or_path)
+        return as_suite(_parse(_read(Path(name_or_path)), where=name_or_path), where=name_or_path)
     if name_or_path not in suite_names():
         known = ", ".join(suite_names())
         raise InputError(
             f"--suite: expected one of {known} or a file ending in .toml, found {name_or_path!r}"
         )
     text = (files("validation") / "suites" / f"{name_or_path}.toml").read_text(encoding="utf-8")
-    return _convert(text, Suite, where=f"suite {name_or_path}")
+    where = f"suite {name_or_path}"
+    return as_suite(_parse(text, where=where), where=where)
 
 
 def load_gates(path: Path) -> tuple[Gate, ...]:
@@ -96,4 +129,4 @@ def load_gates(path: Path) -> tuple[Gate, ...]:
     Raises:
         InputError: no such file, or a key or value that is not allowed.
     """
-    return _convert(_read(path), GateFile, where=str(path)).gate
+    return decode(_parse(_read(path), where=str(path)), GateFile, where=str(path)).gate

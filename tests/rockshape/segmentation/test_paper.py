@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from rockshape.segmentation.published import Kind, classify, segment_heights
+from rockshape.segmentation.published import RegionKind, classify, segment_heights
 
 
 def dome(shape: tuple[int, int], row: float, col: float, radius: float, top: float) -> np.ndarray:
@@ -15,20 +15,22 @@ def test_regions_are_told_by_their_neighbours() -> None:
     levels = np.array([[0, 0, 0, 0, 0, 0], [0, 1, 1, 2, 1, 0], [0, 0, 0, 0, 0, -1]])
     kinds = classify(levels, np.ones(levels.shape, dtype=bool))
     assert kinds[1].tolist() == [
-        Kind.SIDE,  # the ground falls to the lower corner
-        Kind.SIDE,
-        Kind.SIDE,
-        Kind.TOP,
-        Kind.SIDE,
-        Kind.SIDE,
+        RegionKind.SIDE,  # the ground falls to the lower corner
+        RegionKind.SIDE,
+        RegionKind.SIDE,
+        RegionKind.TOP,
+        RegionKind.SIDE,
+        RegionKind.SIDE,
     ]
-    assert kinds[2, 5] == Kind.BOTTOM
+    assert kinds[2, 5] == RegionKind.BOTTOM
 
 
 def test_what_is_not_known_is_no_neighbour() -> None:
     levels = np.array([[5, 1, 5]])
     known = np.array([[True, True, False]])
-    assert classify(levels, known).tolist() == [[Kind.TOP, Kind.BOTTOM, Kind.NONE]]
+    assert classify(levels, known).tolist() == [
+        [RegionKind.TOP, RegionKind.BOTTOM, RegionKind.NONE]
+    ]
 
 
 def test_two_domes_on_the_ground_are_two_rocks() -> None:

@@ -9,15 +9,15 @@ import pytest
 
 from rockshape.cli import main
 from validation.errors import InputError
-from validation.execution.units import DrawingUnit
+from validation.execution.units import Unit
 from validation.execution.work import run_unit
-from validation.kinds.scoring import score_values
+from validation.kinds.multiview.spec import MultiviewExperiment
+from validation.kinds.shapes.spec import ShapesExperiment
 from validation.peers import MeasureSpec, Seen, run_measure, source_digest
 from validation.peers.adapters import ADAPTERS
 from validation.peers.parse import parse_measure, parse_traits, settle
 from validation.peers.view_input import as_table
-from validation.scores.expectations import claims_of
-from validation.suite.experiments import ShapesExperiment, YardExperiment
+from validation.scores.scoring import claims_of, score_values
 from validation.suite.gates import Gate
 from validation.suite.suite import Suite
 
@@ -159,12 +159,12 @@ def test_expected_traits_by_column() -> None:
 def test_peers_stand_beside_ours_on_the_same_masks() -> None:
     peer = settle(parse_measure("scikit-image"), {})
     drawings = ShapesExperiment(name="s", title="S", seed=10900, drawings=1)
-    yard = YardExperiment(name="y", title="Y", seed=1, scenes=1, varied=("angularity",))
+    yard = MultiviewExperiment(name="y", title="Y", seed=1, scenes=1, varied=("angularity",))
     gate = Gate(score="s.x", at_least=0, reason="r")
     suite = Suite(name="s", title="S", experiments=(drawings,), gates=(gate,), measures=(peer,))
     judged = {claim.measure for claim in claims_of(suite, yard) if claim.method == peer.name}
     assert judged == {"solidity", "circularity"}
-    parts = [run_unit(DrawingUnit(drawings, series, 0, (peer,))) for series in drawings.series]
+    parts = [run_unit(Unit(drawings, series, 0, (peer,))) for series in drawings.series]
     records = pd.concat([part.records for part in parts], ignore_index=True)
     theirs = records[records["method"] == "scikit-image"]
     assert (theirs["iou"] == 1.0).all()
@@ -182,7 +182,7 @@ def test_a_peer_that_is_installed_ranks_drawn_forms(name) -> None:
     drawings = ShapesExperiment(name="s", title="S", seed=10900, drawings=1, series=("sphericity",))
     gate = Gate(score="s.x", at_least=0, reason="r")
     suite = Suite(name="s", title="S", experiments=(drawings,), gates=(gate,), measures=(peer,))
-    values = score_values(suite, run_unit(DrawingUnit(drawings, "sphericity", 0, (peer,))).records)
+    values = score_values(suite, run_unit(Unit(drawings, "sphericity", 0, (peer,))).records)
     taus = [v for key, v in values.items() if key.startswith(f"s.{name}.") and key.endswith(".tau")]
     assert max(taus) == 1.0
 

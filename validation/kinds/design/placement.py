@@ -8,7 +8,7 @@ import numpy as np
 from synth.camera.trajectories import stations
 from synth.scene.scene import PlacedRock, SceneModel, build_scene
 from synth.spec import SceneSpec
-from validation.suite.experiments import DesignExperiment
+from validation.kinds.design.spec import DesignExperiment
 
 
 def near_spec(experiment: DesignExperiment, scene: int) -> SceneSpec:

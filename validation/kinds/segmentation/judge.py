@@ -1,121 +1,215 @@
-"""One label image held against the true one: what was found, missed, split and merged."""
+"""Scores of a segmentation: objects found, how well their masks fit, and the ground under them."""
 
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 import pandas as pd
-import scipy.ndimage as ndi
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
-from skimage.measure import find_contours
 
-from validation.errors import InputError
+from validation.kinds.segmentation.spec import SegmentationExperiment
+from validation.peers import MeasureSpec
+from validation.scores.expectations import Claim
+from validation.scores.judge import Feeds
+from validation.scores.score import Better, Definition, Estimate, Key
+from validation.selfcheck.feeds import found_all, missed_all
 
-Labels = NDArray[np.int32]
-Floats = NDArray[np.float64]
+SIZES_PX = ((12, 24), (24, 48), (48, np.inf))
+DEPTHS_M = ((0, 4), (4, 6), (6, 8), (8, np.inf))
 
-SPLIT_SHARE = 0.2  # of a true rock in each of two found ones: split
-MERGED_SHARE = 0.5  # of each of two true rocks in one found: merged
-IGNORED_SHARE = 0.5  # of a found rock on true ones that do not count: it does not count either
-
-
-@dataclass(frozen=True)
-class Rule:
-    """Which rocks count."""
-
-    min_iou: float
-    min_width_px: int
+Compute = Callable[[pd.DataFrame], Estimate]
+_Value = Callable[[NDArray[Any]], float]
 
 
-def judge(
-    truth: Labels,
-    eligible: NDArray[np.bool_],
-    found: Labels,
-    outlines: dict[int, Floats],
-    rule: Rule,
-) -> pd.DataFrame:
-    """One row for each true rock that counts and for each found one that is no true rock.
+def _by_scene(
+    value: _Value, column: str, shown: pd.DataFrame, records: pd.DataFrame, *, count: int
+) -> Estimate:
+    """Return a statistic of a column of the shown rows, with a weight for each scene.
 
-    truth and found are (rows, cols), 0 the ground; eligible (n + 1,) tells which true numbers
-    count. `status` is `matched` (IoU above min_iou, at which a partner is the only one), `missed`
-    or `extra`. As COCO has it, a found rock that matches a true one which does not count, lies on
-    such by half, is under the least width or touches the frame's border is neither right nor wrong
-    and has no row. `boundary_px` is the median distance between the outlines, both ways; `split`
-    and `merged` say whether two found rocks hold a fifth of the true one each, and whether a found
-    rock that holds half of it holds half of another.
-
-    Raises:
-        InputError: the shapes differ.
+    All scenes count, shown or not, so that two runs of one suite number the same scenes alike.
     """
-    if truth.shape != found.shape:
-        raise InputError(f"labels: expected {truth.shape} as the truth, found {found.shape}")
-    count, others = len(eligible), int(found.max(initial=0)) + 1
-    common = np.bincount(
-        truth.ravel().astype(np.intp) * others + found.ravel(), minlength=count * others
-    ).reshape(count, others)
-    true_px, found_px = common.sum(axis=1), common.sum(axis=0)
-    iou = common / np.maximum(true_px[:, None] + found_px - common, 1)
-    iou[0], iou[:, 0] = 0, 0
-    merged_in = ((common[1:] > MERGED_SHARE * true_px[1:, None]) & (true_px[1:, None] > 0)).sum(
-        axis=0
+    scenes = np.unique(records["scene"].to_numpy(np.int64))
+    scene = np.searchsorted(scenes, shown["scene"].to_numpy(np.int64))
+    values = shown[column].to_numpy()
+    if values.size == 0:
+        return Estimate(float("nan"), 0)
+
+    def weighted(weights: NDArray[np.float64]) -> float:
+        drawn = np.repeat(values, weights[scene].astype(np.intp))
+        return value(drawn) if drawn.size else float("nan")
+
+    several = scenes.size > 1
+    return Estimate(value(values), count, scenes.size, weighted if several else None)
+
+
+def _share(good: int, all_of: int) -> float:
+    return good / all_of if all_of else float("nan")
+
+
+def _counts(status: NDArray[Any]) -> tuple[int, int, int]:
+    matched, missed, extra = (
+        int(np.count_nonzero(status == name)) for name in ("matched", "missed", "extra")
     )
-    rows = []
-    for number, window in enumerate(ndi.find_objects(truth), start=1):
-        if window is None or not eligible[number]:
-            continue
-        partner = int(iou[number].argmax())
-        matched = iou[number, partner] > rule.min_iou
-        holders = common[number, 1:]
-        rows.append(
-            {
-                "instance": number - 1,
-                "status": "matched" if matched else "missed",
-                "iou": iou[number, partner] if matched else np.nan,
-                "width_px": window[1].stop - window[1].start,
-                "boundary_px": _boundary_px(truth, number, found, partner, outlines)
-                if matched
-                else np.nan,
-                "split": bool((holders > SPLIT_SHARE * true_px[number]).sum() > 1),
-                "merged": bool(
-                    ((holders > MERGED_SHARE * true_px[number]) & (merged_in[1:] > 1)).any()
-                ),
-                "place": number,
-            }
+    return matched, missed, extra
+
+
+def f1(status: NDArray[Any]) -> float:
+    """Return 2 TP/(2 TP + FN + FP)."""
+    matched, missed, extra = _counts(status)
+    return _share(2 * matched, 2 * matched + missed + extra)
+
+
+def precision(status: NDArray[Any]) -> float:
+    """Return TP/(TP + FP)."""
+    matched, _, extra = _counts(status)
+    return _share(matched, matched + extra)
+
+
+def recall(status: NDArray[Any]) -> float:
+    """Return TP/(TP + FN)."""
+    matched, missed, _ = _counts(status)
+    return _share(matched, matched + missed)
+
+
+def _of_matched(column: str, value: _Value) -> Compute:
+    def compute(records: pd.DataFrame) -> Estimate:
+        shown = records[records["status"] == "matched"]
+        return _by_scene(value, column, shown, records, count=len(shown))
+
+    return compute
+
+
+def _ratio(value: _Value) -> Compute:
+    def compute(records: pd.DataFrame) -> Estimate:
+        shown = records[records["status"].isin(["matched", "missed", "extra"])]
+        count = int((shown["status"] != "extra").sum())
+        return _by_scene(value, "status", shown, records, count=count)
+
+    return compute
+
+
+def _number(column: str) -> Compute:
+    def compute(records: pd.DataFrame) -> Estimate:
+        own = records[records["status"].isin(["matched", "missed"])]
+        return Estimate(float(own[column].astype(bool).sum()), len(own))
+
+    return compute
+
+
+def _ground(records: pd.DataFrame) -> Estimate:
+    """Return the median over views of the ground's RMS error in the range's noise."""
+    views = records.drop_duplicates(["scene", "view"])["ground_sigmas"].dropna()
+    value = float(views.median()) if len(views) else float("nan")
+    return Estimate(value, len(views))
+
+
+def _between(column: str, low: float, high: float) -> Compute:
+    whole = _ratio(f1)
+
+    def compute(records: pd.DataFrame) -> Estimate:
+        inside = (records[column] >= low) & (records[column] < high)
+        return whole(records.assign(status=records["status"].where(inside, "elsewhere")))
+
+    return compute
+
+
+_WHOLE: tuple[tuple[str, str, str, str, Better, Compute], ...] = (
+    ("f1", "objects found (F1 at IoU > 0.5)", "1", "rocks in views", "higher", _ratio(f1)),
+    ("precision", "found objects that are rocks", "share", "rocks in views", "higher",
+     _ratio(precision)),
+    ("recall", "rocks found", "share", "rocks in views", "higher", _ratio(recall)),
+    ("mean_iou", "overlap of the found masks (mean IoU)", "1", "found rocks", "higher",
+     _of_matched("iou", lambda values: float(np.mean(values)))),
+    ("boundary_px", "distance of the outlines, median", "px", "found rocks", "lower",
+     _of_matched("boundary_px", lambda values: float(np.median(values)))),
+    ("splits", "rocks found in pieces", "rocks", "rocks in views", "lower", _number("split")),
+    ("merges", "rocks found as one with another", "rocks", "rocks in views", "lower",
+     _number("merged")),
+    ("ground_error", "ground's RMS error over the range's noise, median", "σ", "views", "lower",
+     _ground),
+)  # fmt: skip
+
+
+def _name(low: float, high: float) -> str:
+    return f"{low:g}_up" if np.isinf(high) else f"{low:g}_{high:g}"
+
+
+def _binned() -> list[tuple[str, str, str, str, Better, Compute]]:
+    rows: list[tuple[str, str, str, str, Better, Compute]] = []
+    for column, key, unit, bins in (
+        ("width_px", "width", "px", SIZES_PX),
+        ("depth_m", "depth", "m", DEPTHS_M),
+    ):
+        for low, high in bins:
+            until = "and more" if np.isinf(high) else f"to {high:g}"
+            rows.append(
+                (
+                    f"f1_{key}_{_name(low, high)}",
+                    f"F1 of objects of {key} {low:g} {until} {unit}",
+                    "1",
+                    "rocks in views",
+                    "higher",
+                    _between(column, low, high),
+                )
+            )
+    return rows
+
+
+def _has_ground(series: str) -> bool:
+    way, _, source = series.partition("-")
+    return way in ("paper", "robust") and source != "none"
+
+
+def claims(
+    experiment: SegmentationExperiment,  # noqa: ARG001
+    measures: Sequence[MeasureSpec],  # noqa: ARG001
+) -> tuple[Claim, ...]:
+    """Return none: a segmentation measures nothing."""
+    return ()
+
+
+view_claims = ranked_claims = claims
+
+
+def definitions(
+    experiment: SegmentationExperiment,
+    measures: Sequence[MeasureSpec],  # noqa: ARG001
+) -> tuple[Definition, ...]:
+    """Return the scores of an experiment, way by way."""
+
+    def own(series: str, compute: Compute) -> Compute:
+        return lambda records: compute(
+            records[(records["experiment"] == experiment.name) & (records["series"] == series)]
         )
-    free = ~eligible
-    free[0] = False
-    for number, window in enumerate(ndi.find_objects(found), start=1):
-        if window is None or iou[:, number].max() > rule.min_iou:
-            continue
-        width = window[1].stop - window[1].start
-        ignored = common[free, number].sum() >= IGNORED_SHARE * found_px[number]
-        if ignored or width < rule.min_width_px or _on_border(window, truth.shape):
-            continue
-        rows.append({"status": "extra", "width_px": width, "place": -number})
-    columns = ["instance", "status", "iou", "width_px", "boundary_px", "split", "merged", "place"]
-    kinds = {"instance": "Int64", "split": "boolean", "merged": "boolean"}
-    return pd.DataFrame(rows, columns=columns).astype(kinds)
 
-
-def _on_border(window: tuple[slice, slice], shape: tuple[int, ...]) -> bool:
-    return any(
-        side.start == 0 or side.stop == size for side, size in zip(window, shape, strict=True)
+    return tuple(
+        Definition(
+            key=Key(experiment.name, "", series, "", key),
+            title=f"{series}: {title}",
+            unit=unit,
+            counted=counted,
+            better=better,
+            compute=own(series, compute),
+        )
+        for series in experiment.series
+        for key, title, unit, counted, better, compute in (*_WHOLE, *_binned())
+        if key != "ground_error" or _has_ground(series)
     )
 
 
-def _boundary_px(
-    truth: Labels, number: int, found: Labels, partner: int, outlines: dict[int, Floats]
-) -> float:
-    true_ring = _ring(truth == number)
-    ring = outlines[partner] if partner in outlines else _ring(found == partner)
-    there, back = cKDTree(true_ring).query(ring)[0], cKDTree(ring).query(true_ring)[0]
-    return float(np.median(np.concatenate([there, back])))
+_FAULTLESS = {"boundary_px": 0.0, "split": False, "merged": False, "ground_sigmas": 0.0}
 
 
-def _ring(mask: NDArray[np.bool_]) -> Floats:
-    """The mask's longest border, (n, 2) as (x, y), half way between the pixels' centres."""
-    rows, cols = np.nonzero(mask)
-    top, left = int(rows.min()), int(cols.min())
-    part = mask[top : rows.max() + 1, left : cols.max() + 1]
-    rings = find_contours(np.pad(part, 1).astype(np.float64), 0.5)
-    return np.asarray(max(rings, key=len)[:, ::-1] + (left - 1, top - 1))
+def _oracle(records: pd.DataFrame, claims: Sequence[Claim]) -> pd.DataFrame:  # noqa: ARG001
+    """Return records in which every rock is found to the pixel, and the ground with it."""
+    fed = found_all(records)
+    for column, value in _FAULTLESS.items():
+        fed[column] = value
+    return fed
+
+
+FEEDS = Feeds(
+    oracle=_oracle,
+    shuffled=lambda records, rng: missed_all(records),  # noqa: ARG005
+    mixed=lambda records, claims, rng: missed_all(records),  # noqa: ARG005
+)

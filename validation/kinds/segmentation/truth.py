@@ -6,9 +6,8 @@ import numpy as np
 import scipy.ndimage as ndi
 from numpy.typing import NDArray
 
-from rockshape.camera.camera import Camera
-from validation.records.truth import RockInView
-from validation.suite.experiments import SegmentationExperiment
+from validation.execution.views import SceneView
+from validation.kinds.segmentation.spec import SegmentationExperiment
 
 Floats = NDArray[np.float64]
 
@@ -24,14 +23,9 @@ class ViewTruth:
     ground_m: Floats  # (m, 3), points of the bare ground
 
 
-def view_truth(
-    labels: NDArray[np.int32],
-    exact_m: Floats,
-    rocks: tuple[RockInView, ...],
-    *,
-    experiment: SegmentationExperiment,
-) -> ViewTruth:
-    """Truth of a view from its labels and its exact points (rows, cols, 3)."""
+def view_truth(view: SceneView, *, experiment: SegmentationExperiment) -> ViewTruth:
+    """Truth of a view from its labels and its exact points."""
+    labels, exact_m, rocks = view.instances, view.exact_m, view.rocks
     count = max([int(labels.max()), *(rock.instance + 1 for rock in rocks)]) + 1
     shown = np.zeros(count, dtype=bool)
     visible = {rock.instance + 1: rock for rock in rocks}
@@ -63,8 +57,7 @@ def view_truth(
 
 def range_counts(
     truth: ViewTruth,
-    points_m: Floats,
-    camera: Camera,
+    view: SceneView,
     *,
     baseline_m: float,
     experiment: SegmentationExperiment,
@@ -74,10 +67,10 @@ def range_counts(
     Half of a rock's pixels have range, it stands at least so many standard deviations of the depth
     there high, sigma_Z = Z^2 sigma_d/(f B), and it is no farther than the greatest depth.
     """
-    sigma = truth.depth_m**2 * experiment.scene.noise.disparity_px / (camera.fx * baseline_m)
+    sigma = truth.depth_m**2 * experiment.scene.noise.disparity_px / (view.camera.fx * baseline_m)
     count = len(truth.shown)
     known = np.bincount(
-        truth.labels.ravel(), np.isfinite(points_m[..., 2]).ravel(), minlength=count
+        truth.labels.ravel(), np.isfinite(view.points_m[..., 2]).ravel(), minlength=count
     )
     pixels = np.bincount(truth.labels.ravel(), minlength=count)
     return np.asarray(

@@ -1,7 +1,6 @@
-"""One scene of an experiment of segmentation: made, segmented in every way, judged."""
+"""One scene of a segmentation experiment: made, segmented in every way, matched."""
 
 from dataclasses import asdict, dataclass
-from pathlib import Path
 
 import cv2
 import msgspec
@@ -10,20 +9,18 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from rockshape.camera.camera import Camera
-from rockshape.io import read_camera, read_image, read_range
-from rockshape.method import methods
+from rockshape.method import find_method
 from rockshape.observation import Observation
 from rockshape.segmentation import Segmentation
 from synth.camera.camera import PRESETS
-from synth.dataset.write import write_common, write_scene
-from synth.render import choose_backend
+from validation.execution.units import Unit, UnitResult
+from validation.execution.views import dataset_views
 from validation.kinds.segmentation.baselines import fixed_height, otsu, plain_watershed
-from validation.kinds.segmentation.judge import Rule, judge
+from validation.kinds.segmentation.object_matching import Rule, judge
+from validation.kinds.segmentation.spec import SegmentationExperiment
 from validation.kinds.segmentation.truth import ViewTruth, range_counts, view_truth
 from validation.records.join import RecordKey
 from validation.records.pictures import Picture, compress
-from validation.records.truth import read_instances, read_scene_truth
-from validation.suite.experiments import SegmentationExperiment
 
 Labels = NDArray[np.int32]
 Floats = NDArray[np.float64]
@@ -41,50 +38,36 @@ class Segmented:
     ground_sigmas: float  # the plane's RMS error over the range noise there; NaN without
 
 
-def run_scene(
-    experiment: SegmentationExperiment, scene: int, folder: Path
-) -> tuple[pd.DataFrame, tuple[Picture, ...], str]:
-    """Return the records of scene number `scene`, its pictures and the renderer.
+def run(unit: Unit[SegmentationExperiment]) -> UnitResult:
+    """Make a scene, find its rocks in every way and judge what was found.
 
     A series is a way and the range it was given: `robust-exact`, `paper-stereo`, `otsu-none`.
     """
+    experiment, scene = unit.experiment, unit.scene
     spec = msgspec.structs.replace(experiment.scene, seed=experiment.seed + scene)
-    backend = choose_backend(spec.renderer)
-    write_scene(spec, 0, backend, folder)
-    write_common(spec, backend, folder)
-    camera = read_camera(folder / "camera.json")
-    data = folder / "000000"
-    rocks = read_scene_truth(data / "scene_gt_shape.json").views
+    views, backend = dataset_views(spec, exact=True)
     records, pictures = [], []
-    for view in range(spec.views.count):
-        name = f"{view:06d}.png"
-        image = read_image(data / "gray" / name)
-        measured = read_range(data / "depth" / name, shape=image.shape, camera=camera)
-        exact_folder = "depth" if spec.noise.kind == "none" else "depth_true"
-        exact = read_range(data / exact_folder / name, shape=image.shape, camera=camera)
-        instances = read_instances(data / "labels" / name)
-        truth = view_truth(instances, exact, rocks[str(view)], experiment=experiment)
+    for view in views:
+        truth = view_truth(view, experiment=experiment)
         for series in experiment.series:
             way, _, source = series.partition("-")
-            points = {"none": None, "exact": exact}.get(source, measured)
+            points = {"none": None, "exact": view.exact_m}.get(source, view.points_m)
             counts = truth.shown
             if source in ("stereo", "sgm"):
                 counts = range_counts(
-                    truth,
-                    measured,
-                    camera,
-                    baseline_m=_baseline_m(experiment),
-                    experiment=experiment,
+                    truth, view, baseline_m=_baseline_m(experiment), experiment=experiment
                 )
-            made = _segment(
-                way, Observation(image=image, points_m=points, camera=camera), truth, experiment
+            made = _segment(way, view.observation(points), truth, experiment)
+            place = RecordKey(
+                experiment.name, "segmentation", series, scene, spec.seed, view.number, ""
             )
-            place = RecordKey(experiment.name, "segmentation", series, scene, spec.seed, view, "")
-            records.append(_rows(place, truth, counts, made, exact_m=exact, experiment=experiment))
-            if scene < experiment.pictured and view == 0:
-                shown = draw(image, truth.labels, made.labels)
+            records.append(
+                _rows(place, truth, counts, made, exact_m=view.exact_m, experiment=experiment)
+            )
+            if scene < experiment.pictured and view.number == 0:
+                shown = draw(view.image, truth.labels, made.labels)
                 pictures.append(Picture(place, *compress(shown, np.ones_like(truth.labels))))
-    return pd.concat(records, ignore_index=True), tuple(pictures), backend
+    return UnitResult(pd.concat(records, ignore_index=True), tuple(pictures), backend)
 
 
 def _baseline_m(experiment: SegmentationExperiment) -> float:
@@ -97,7 +80,7 @@ def _segment(
     baselines = {"height": fixed_height, "otsu": otsu, "watershed": plain_watershed}
     if way in baselines:
         return Segmented(baselines[way](observation), {}, float("nan"))
-    made = methods()[way].segment(observation)
+    made = find_method(way).segment(observation)
     outlines = {one.number: one.outline.points_px for one in made.found if one.outline is not None}
     return Segmented(
         made.labels,

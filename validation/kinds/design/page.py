@@ -1,0 +1,16 @@
+"""Page of designed experiments: their scores stand in the page's table of all scores alone."""
+
+from markupsafe import Markup
+
+from validation.execution.run import Run
+from validation.kinds.design.spec import DesignExperiment
+from validation.report.section import Room
+
+
+def scenes_shown(experiment: DesignExperiment) -> None:
+    """Return none: no pictures are kept of so many cells."""
+
+
+def section(run: Run, experiment: DesignExperiment, room: Room) -> Markup:  # noqa: ARG001
+    """Return nothing."""
+    return Markup("")

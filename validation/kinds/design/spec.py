@@ -1,0 +1,68 @@
+"""Designed experiment: the same rocks in every cell of views, distances, suns and rolls."""
+
+from typing import Annotated, Any, Self
+
+import msgspec
+from msgspec import Meta
+
+from synth.spec import SceneSpec
+from synth.spec.ground import GroundSpec
+from synth.spec.limits import Degrees
+from synth.spec.view import SunSpec
+from validation.suite.experiment import MeasuredExperiment
+from validation.suite.scene import with_renderer
+
+CLEAN, FOUND, NOISY = STATES = ("clean", "found", "noisy")
+
+
+class DesignExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="design"):
+    """The same rocks in every cell of views × distances × suns × rolls: what moves their values.
+
+    Scene i of the experiment is scene 0 of `scene` with the seed `seed` + i, its rocks placed for
+    the least distance. `rolls_deg` turn the camera about its axis: the same truth on another grid
+    of pixels.
+    """
+
+    scenes: Annotated[int, Meta(ge=1, le=9999)]
+    distances_m: Annotated[tuple[Annotated[float, Meta(gt=0)], ...], Meta(min_length=2)]
+    suns: Annotated[tuple[SunSpec, ...], Meta(min_length=2)]
+    rolls_deg: Annotated[tuple[Degrees, ...], Meta(min_length=2)]
+    scene: SceneSpec
+    min_visible_fraction: Annotated[float, Meta(ge=0, le=1)] = 0.99
+    min_iou: Annotated[float, Meta(gt=0, le=1)] = 0.5
+
+    def __post_init__(self) -> None:
+        """Ask for levels that differ, and for rocks that can be moved."""
+        super().__post_init__()
+        scene = self.scene
+        if list(self.distances_m) != sorted(set(self.distances_m)):
+            raise ValueError(f"distances_m: expected them rising, found {self.distances_m}")
+        for name, levels in (("suns", self.suns), ("rolls_deg", self.rolls_deg)):
+            if any(level in levels[:i] for i, level in enumerate(levels)):
+                raise ValueError(f"{name}: expected levels that differ")
+        camera = msgspec.structs.replace(scene.camera, distance_m=None, roll_deg=0.0)
+        beside = (scene.seed, scene.scenes, scene.sun, scene.camera)
+        if beside != (0, 1, SunSpec(), camera):
+            raise ValueError(
+                "expected seed, scenes, suns, distances_m and rolls_deg beside the experiment's "
+                "name, found one of them under scene"
+            )
+        if scene.noise.kind == "none":
+            raise ValueError("scene.noise.kind: expected stereo or sgm, found none")
+        if scene.population.kind != "count" or scene.ground != GroundSpec():
+            raise ValueError("scene: expected counted rocks on the plain level ground")
+        if scene.views.count < 2 or scene.views.path == "drive-by":
+            raise ValueError("scene.views: expected two or more at one distance")
+
+    @property
+    def units(self) -> tuple[tuple[str, int], ...]:
+        """Each scene, in all its cells."""
+        return tuple(("", scene) for scene in range(self.scenes))
+
+    def dependencies(self, series: str, scene: int) -> dict[str, Any]:  # noqa: ARG002
+        """Return what a unit depends on."""
+        return self.plain(without=("title", "scenes"))
+
+    def settled(self) -> Self:
+        """Return the spec with the renderer of this machine."""
+        return msgspec.structs.replace(self, scene=with_renderer(self.scene))

@@ -1,0 +1,93 @@
+"""Judge of gardens: that of multi-view experiments, and rank correlations between measures."""
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+from scipy import stats
+
+from rockshape.method import find_method
+from validation.kinds.garden.spec import GardenExperiment
+from validation.kinds.multiview import judge as multiview
+from validation.kinds.multiview.judge import FEEDS, claims, ranked_claims, view_claims
+from validation.kinds.multiview.judge.detection import rock_numbers
+from validation.peers import MeasureSpec
+from validation.scores.score import Definition, Estimate, Key
+from validation.scores.titles import REFERENCE
+
+__all__ = ["FEEDS", "claims", "definitions", "ranked_claims", "view_claims"]
+
+
+class Couple(NamedTuple):
+    """Two measures by the paper's column names; RHO of table 4 is said of these."""
+
+    first: str
+    second: str
+
+
+COUPLES = (
+    Couple("axis_ratio", "sphericity_2d"),
+    Couple("ellipse_error_px2", "angularity_3d_per_m"),
+    Couple("ellipsoid_error_m2", "angularity_3d_per_m"),
+    Couple("angularity_2d_deg", "angularity_3d_per_m"),
+)
+
+
+def column_of(method: str, paper_column: str) -> str:
+    """Return the method's column of the measure that the paper's method calls so."""
+    titles = {measure.column: measure.title for measure in find_method(REFERENCE).measures}
+    return next(m.column for m in find_method(method).measures if m.title == titles[paper_column])
+
+
+def rho_key(experiment: str, method: str, couple: Couple) -> Key:
+    """Return the score's key: both columns joined by a plus."""
+    columns = (column_of(method, column) for column in couple)
+    return Key(experiment, method, "", "+".join(columns), "rho")
+
+
+def _rho(key: Key) -> Callable[[pd.DataFrame], Estimate]:
+    first, second = key.measure.split("+")
+
+    def compute(records: pd.DataFrame) -> Estimate:
+        own = records[(records["experiment"] == key.experiment) & (records["method"] == key.method)]
+        shown = own[(own["status"] == "matched") & own["eligible"].astype(bool)]
+        shown = shown[np.isfinite(shown[[first, second]].to_numpy(np.float64)).all(axis=1)]
+        if len(shown) < 3:
+            return Estimate(float("nan"), len(shown))
+        one, other = (stats.rankdata(shown[column].to_numpy()) for column in (first, second))
+        rock, rocks = rock_numbers(shown, own)
+
+        def rho(weights: np.typing.NDArray[np.float64]) -> float:
+            weight = weights[rock]
+            if np.count_nonzero(weight) < 3:
+                return float("nan")
+            table = np.cov(one, other, aweights=weight, bias=True)
+            return float(table[0, 1] / np.sqrt(table[0, 0] * table[1, 1]))
+
+        return Estimate(rho(np.ones(rocks)), len(shown), rocks, rho)
+
+    return compute
+
+
+def correlations(experiment: GardenExperiment) -> tuple[Definition, ...]:
+    """Return Spearman's ρ of the couples, by each method; an interval keeps the sample's ranks."""
+    return tuple(
+        Definition(
+            key=(key := rho_key(experiment.name, method, couple)),
+            title=f"{key.measure.replace('+', ' with ')}: Spearman's ρ over rock views",
+            unit="1",
+            counted="rock views",
+            better="neither",
+            compute=_rho(key),
+        )
+        for method in experiment.methods
+        for couple in COUPLES
+    )
+
+
+def definitions(
+    experiment: GardenExperiment, measures: Sequence[MeasureSpec]
+) -> tuple[Definition, ...]:
+    """Return the scores of rocks seen from several views, then how far measures go together."""
+    return (*multiview.definitions(experiment, measures), *correlations(experiment))

@@ -1,0 +1,171 @@
+"""Claims and scores of rocks seen from several views."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import pandas as pd
+
+from validation.kinds.multiview.judge import detection, levels
+from validation.kinds.multiview.spec import MultiviewExperiment, Varied
+from validation.peers import MeasureSpec, Trait
+from validation.scores.agreement import ORDERS, STATISTICS, Statistic
+from validation.scores.define import define
+from validation.scores.expectations import TRUTH, Claim, JudgedColumn, columns_of
+from validation.scores.score import VIEW_PREFIX, Better, Definition, Estimate, Key
+from validation.scores.titles import REFERENCE
+
+# The traits that differ between rocks where an experiment varies one: roundness is the reverse of
+# angularity, whose truth is 1 − roundness.
+_TRAITS: dict[Varied, tuple[Trait, ...]] = {
+    "angularity": ("angularity", "roundness"),
+    "form": ("form",),
+}
+_FORM = "maximum_projection_sphericity"  # truth of a solid's form
+
+_Compute = Callable[[pd.DataFrame], Estimate]
+_OF_METHOD: tuple[tuple[str, str, str, str, Better, _Compute], ...] = (
+    ("recall", "rocks found", "share", "rocks in views", "higher", detection.recall),
+    (
+        "precision",
+        "found rocks that are rocks",
+        "share",
+        "found rocks",
+        "higher",
+        detection.precision,
+    ),
+    (
+        "mean_iou",
+        "overlap of the found masks (mean IoU)",
+        "1",
+        "found rocks",
+        "higher",
+        detection.mean_iou,
+    ),
+    (
+        "centre_px",
+        "measured centre from the true mask's, RMS",
+        "px",
+        "found rocks",
+        "lower",
+        levels.centre_px,
+    ),
+    (
+        "axis_a",
+        "measured over true longest half-axis, median",
+        "1",
+        "found rocks",
+        "neither",
+        levels.axis_a,
+    ),
+)
+
+
+def _own(key: Key, compute: _Compute) -> _Compute:
+    return lambda records: compute(
+        records[
+            (records["experiment"] == key.experiment)
+            & (records["series"] == key.series)
+            & (records["method"] == key.method)
+        ]
+    )
+
+
+def _of_method(experiment: MultiviewExperiment, series: str, method: str) -> list[Definition]:
+    suffix = "" if method == REFERENCE else f" ({method})"
+    return [
+        Definition(
+            key=(key := Key(experiment.name, method, series, "", statistic)),
+            title=title + suffix,
+            unit=unit,
+            counted=counted,
+            better=better,
+            compute=_own(key, compute),
+        )
+        for statistic, title, unit, counted, better, compute in _OF_METHOD
+    ]
+
+
+def _of_view(statistic: Statistic) -> Statistic:
+    """Return a statistic of what each view truly shows under a name of its own."""
+    return replace(
+        statistic,
+        key=VIEW_PREFIX + statistic.key,
+        title=f"{statistic.title}, by the outline that the view shows",
+    )
+
+
+def _of_rock(experiment: MultiviewExperiment, series: str, column: JudgedColumn) -> Claim:
+    """Return the claim held to the solid's own truth, which no measure of an outline can equal."""
+    truth = _FORM if column.trait == "form" else column.trait
+    measure = column.measure
+    equals = measure.equals if measure is not None and measure.needs_range else ()
+    return Claim(
+        experiment.name,
+        series,
+        column.method,
+        column.name,
+        TRUTH + truth,
+        same_quantity=truth in equals,
+    )
+
+
+def claims(experiment: MultiviewExperiment, measures: Sequence[MeasureSpec]) -> tuple[Claim, ...]:
+    """Return the claims that the rocks can judge, by what varies between them, then by method."""
+    columns = list(columns_of(experiment, measures))
+    return tuple(
+        _of_rock(experiment, series, column)
+        for series in experiment.series
+        for varied in experiment.varied
+        for column in columns
+        if column.trait in _TRAITS[varied]
+    )
+
+
+def view_claims(
+    experiment: MultiviewExperiment, measures: Sequence[MeasureSpec]
+) -> tuple[Claim, ...]:
+    """Return the claims on what each view truly shows."""
+    return tuple(
+        Claim(
+            experiment.name,
+            series,
+            column.method,
+            column.name,
+            TRUTH + column.measure.view_truth,
+            per_view=True,
+            same_quantity=column.measure.view_truth in column.measure.equals,
+        )
+        for series in experiment.series
+        for column in columns_of(experiment, measures)
+        if column.measure is not None and column.measure.view_truth
+    )
+
+
+def ranked_claims(
+    experiment: MultiviewExperiment, measures: Sequence[MeasureSpec]
+) -> tuple[Claim, ...]:
+    """Return the claims that the leaderboard ranks: a sweep's charts show its own."""
+    return claims(experiment, measures) if experiment.sweep is None else ()
+
+
+def definitions(
+    experiment: MultiviewExperiment, measures: Sequence[MeasureSpec]
+) -> tuple[Definition, ...]:
+    """Return the scores of one experiment: what each method found, then each claim's statistics."""
+    found = [
+        definition
+        for series in experiment.series
+        for method in experiment.methods
+        for definition in _of_method(experiment, series, method)
+    ]
+    ranked = [
+        define(claim, statistic)
+        for claim in claims(experiment, measures)
+        for statistic in (*STATISTICS, *levels.of(claim))
+    ]
+    shown = [
+        define(claim, _of_view(statistic))
+        for claim in view_claims(experiment, measures)
+        for statistic in (*ORDERS, *(levels.DIFFERENCES if claim.same_quantity else ()))
+    ]
+    return (*found, *ranked, *shown)

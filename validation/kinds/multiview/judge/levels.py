@@ -1,0 +1,139 @@
+"""How great the measured values are, and how far from the truth where they are one quantity.
+
+Order says nothing of these: a value in radians for degrees, diameters for half-axes or a centre
+half a pixel off leaves every order as it was.
+"""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from validation.kinds.multiview.judge.detection import rock_numbers
+from validation.scores.agreement import Statistic
+from validation.scores.expectations import Claim
+from validation.scores.score import Estimate
+from validation.statistics import Block
+
+_Values = NDArray[np.float64]
+
+
+def _pooled(
+    values: _Values, rock: NDArray[np.intp], rocks: int, total: Callable[[_Values, _Values], float]
+) -> Estimate:
+    """Return a statistic `total(values, weights)` of pooled values with a weight for each rock."""
+    keep = np.isfinite(values)
+    values, rock = values[keep], rock[keep]
+    if values.size == 0:
+        return Estimate(float("nan"), 0)
+
+    def weighted(weights: _Values) -> float:
+        own = weights[rock]
+        return total(values, own) if own.sum() > 0 else float("nan")
+
+    return Estimate(total(values, np.ones(values.size)), int(values.size), rocks, weighted)
+
+
+def _mean(values: _Values, weights: _Values) -> float:
+    return float(weights @ values / weights.sum())
+
+
+def _rms(values: _Values, weights: _Values) -> float:
+    return float(np.sqrt(weights @ values**2 / weights.sum()))
+
+
+def _median(values: _Values, weights: _Values) -> float:
+    order = np.argsort(values, kind="stable")
+    reached = np.cumsum(weights[order])
+    return float(values[order][np.searchsorted(reached, 0.5 * reached[-1])])
+
+
+def _in_plain_view(records: pd.DataFrame) -> pd.DataFrame:
+    return records[(records["status"] == "matched") & records["eligible"].astype(bool)]
+
+
+def centre_px(records: pd.DataFrame) -> Estimate:
+    """Return the RMS distance of the measured centres from those of the true visible masks."""
+    shown = _in_plain_view(records)
+    off = np.hypot(
+        shown["row"].to_numpy(np.float64) - shown["truth_row"].to_numpy(np.float64),
+        shown["col"].to_numpy(np.float64) - shown["truth_col"].to_numpy(np.float64),
+    )
+    return _pooled(off, *rock_numbers(shown, records), _rms)
+
+
+def axis_a(records: pd.DataFrame) -> Estimate:
+    """Return the median ratio of the measured to the true longest half-axis."""
+    shown = _in_plain_view(records)
+    ratio = shown["axis_a_m"].to_numpy(np.float64) / shown["truth_axis_a_m"].to_numpy(np.float64)
+    return _pooled(ratio, *rock_numbers(shown, records), _median)
+
+
+def _flat(blocks: Sequence[Block], *, less_truth: bool) -> tuple[_Values, NDArray[np.intp], int]:
+    """Return all values of all blocks, or their differences from the truth, with their rocks."""
+    values, rocks, count = [np.empty(0)], [np.empty(0, np.intp)], 0
+    for block in blocks:
+        shown = block.values - block.view_truth if less_truth else block.values
+        values.append(shown.ravel())
+        rocks.append(np.tile(np.arange(block.rocks) + count, block.values.shape[0]))
+        count += block.rocks
+    return np.concatenate(values), np.concatenate(rocks), count
+
+
+def _slope(blocks: Sequence[Block]) -> Estimate:
+    """Return the least-squares slope of measured on true values; 1 is calibrated."""
+    values, rock, rocks = _flat(blocks, less_truth=False)
+    truth = np.concatenate([np.empty(0), *(block.view_truth.ravel() for block in blocks)])
+    keep = np.isfinite(values) & np.isfinite(truth)
+    values, truth, rock = values[keep], truth[keep], rock[keep]
+
+    def slope(weights: _Values) -> float:
+        own = weights[rock]
+        if not own.sum() > 0:
+            return float("nan")
+        off = truth - np.average(truth, weights=own)
+        spread = float(own @ off**2)
+        return float(own @ (off * values)) / spread if spread > 0 else float("nan")
+
+    return Estimate(slope(np.ones(rocks)), int(values.size), rocks, slope)
+
+
+_LEVEL = Statistic(
+    "level",
+    "mean value",
+    "",
+    "rock views",
+    "neither",
+    lambda blocks: _pooled(*_flat(blocks, less_truth=False), _mean),
+)
+_BIAS = Statistic(
+    "bias",
+    "mean difference from the truth",
+    "",
+    "rock views",
+    "neither",
+    lambda blocks: _pooled(*_flat(blocks, less_truth=True), _mean),
+)
+_ERROR = Statistic(
+    "error",
+    "RMS difference from the truth",
+    "",
+    "rock views",
+    "lower",
+    lambda blocks: _pooled(*_flat(blocks, less_truth=True), _rms),
+)
+_SLOPE = Statistic(
+    "slope",
+    "slope of measured on true values",
+    "1",
+    "rock views",
+    "neither",
+    _slope,
+)
+DIFFERENCES = (_BIAS, _ERROR, _SLOPE)
+
+
+def of(claim: Claim) -> tuple[Statistic, ...]:
+    """Return the statistics of a claim's level; of its error where it has a truth of its own."""
+    return (_LEVEL, *DIFFERENCES) if claim.same_quantity else (_LEVEL,)

@@ -1,0 +1,59 @@
+"""Segmentation experiment: rocks on the ground, found in several ways."""
+
+from typing import Annotated, Any, Self
+
+import msgspec
+from msgspec import Meta
+
+from synth.spec import SceneSpec
+from validation.suite.experiment import Experiment
+from validation.suite.scene import check_scene_is_single, with_renderer
+
+Way = Annotated[
+    str,
+    Meta(pattern="^((paper|robust|height|watershed)-(exact|stereo|sgm)|(robust|otsu)-none)$"),
+]
+
+
+class SegmentationExperiment(Experiment, frozen=True, kw_only=True, tag="segmentation"):
+    """Rocks on the ground, segmented in several ways: variants of ours beside plain baselines.
+
+    Scene i of the experiment is scene 0 of `scene` with the seed `seed` + i. A rock counts where
+    it is so wide, so visible and wholly in the frame; from noisy range also only where it is so
+    high in standard deviations of its depth, not too far, and half of it has range.
+    """
+
+    scenes: Annotated[int, Meta(ge=1, le=9999)]
+    series: Annotated[tuple[Way, ...], Meta(min_length=1)]  # a way and the range it is given
+    scene: SceneSpec = SceneSpec()
+    min_iou: Annotated[float, Meta(ge=0.5, le=1)] = 0.5
+    min_width_px: Annotated[int, Meta(ge=1)] = 12
+    min_visible_fraction: Annotated[float, Meta(ge=0, le=1)] = 0.5
+    min_height_sigma: Annotated[float, Meta(ge=0)] = 4.0
+    max_depth_m: Annotated[float, Meta(gt=0)] = 8.0
+    pictured: Annotated[int, Meta(ge=0, le=12)] = 1  # scenes shown in the report
+
+    def __post_init__(self) -> None:
+        """Leave one place for seed and number of scenes, and ask for range that the scene has."""
+        check_scene_is_single(self.scene)
+        for series in self.series:
+            source = series.rpartition("-")[2]
+            if source in ("stereo", "sgm") and source != self.scene.noise.kind:
+                raise ValueError(
+                    f"series: {series!r} needs scene.noise.kind {source!r}, "
+                    f"found {self.scene.noise.kind!r}"
+                )
+
+    @property
+    def units(self) -> tuple[tuple[str, int], ...]:
+        """Each scene, segmented in all ways."""
+        return tuple(("", scene) for scene in range(self.scenes))
+
+    def dependencies(self, series: str, scene: int) -> dict[str, Any]:  # noqa: ARG002
+        """Return what a unit depends on."""
+        plain = self.plain(without=("title", "scenes", "pictured"))
+        return plain | {"pictured": scene < self.pictured}
+
+    def settled(self) -> Self:
+        """Return the spec with the renderer of this machine."""
+        return msgspec.structs.replace(self, scene=with_renderer(self.scene))

@@ -1,0 +1,36 @@
+"""Shapes experiment: drawn series of known outlines."""
+
+from typing import Annotated, Any, ClassVar, Literal
+
+from msgspec import Meta
+
+from validation.suite.experiment import MeasuredExperiment
+
+ShapeSeries = Literal["roundness", "sphericity"]
+
+
+class ShapesExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="shapes"):
+    """Hand-drawn shapes in series, as in the paper's figures 8 and 9.
+
+    Drawing i of a series has the seed `seed` + i.
+    """
+
+    takes_measures: ClassVar[bool] = True
+
+    drawings: Annotated[int, Meta(ge=1, le=9999)]
+    series: Annotated[tuple[ShapeSeries, ...], Meta(min_length=1)] = ("roundness", "sphericity")
+    count: Annotated[int, Meta(ge=3, le=12)] = 4
+
+    @property
+    def units(self) -> tuple[tuple[str, int], ...]:
+        """Each drawing of each series."""
+        return tuple((series, each) for series in self.series for each in range(self.drawings))
+
+    def is_pictured(self, drawing: int) -> bool:
+        """Whether a whole drawing is kept: the first of each series."""
+        return drawing == 0
+
+    def dependencies(self, series: str, scene: int) -> dict[str, Any]:  # noqa: ARG002
+        """Return what a unit depends on."""
+        plain = self.plain(without=("title", "drawings", "series"))
+        return plain | {"pictured": self.is_pictured(scene)}

@@ -1,0 +1,81 @@
+"""Registry of the kinds of experiments: those of this package, of plug-ins and of the process."""
+
+import pkgutil
+from functools import cache
+from importlib import import_module
+from importlib.metadata import entry_points
+from importlib.util import find_spec
+
+from synth.spec.wording import expected_one_of
+from validation.errors import InputError
+from validation.suite.experiment import Experiment
+from validation.suite.kind import Kind, Table
+
+GROUP = "rockshape.kinds"  # entry points, each naming a Kind
+_PACKAGE = "validation.kinds"  # a folder each, whose __init__ has KIND
+
+_registered: dict[str, Kind] = {}
+
+
+@cache
+def installed_kinds() -> dict[str, Kind]:
+    """Return the kinds of this package's folders, then those of installed plug-ins."""
+    spec = find_spec(_PACKAGE)
+    folders = pkgutil.iter_modules(spec.submodule_search_locations if spec else None)
+    kinds: list[Kind] = [
+        import_module(f"{_PACKAGE}.{each.name}").KIND for each in folders if each.ispkg
+    ]
+    kinds += [point.load() for point in entry_points(group=GROUP)]
+    return {kind.name: kind for kind in kinds}
+
+
+def kinds() -> dict[str, Kind]:
+    """Return all kinds by name; one that is registered replaces a found one of its name."""
+    return installed_kinds() | _registered
+
+
+def register_kind(kind: Kind) -> Kind:
+    """Add a kind in this process; return it.
+
+    Called in the module that defines the spec, it is known in workers too: they import that module
+    when they read a unit.
+    """
+    _registered[kind.name] = kind
+    return kind
+
+
+def kind_named(name: str) -> Kind:
+    """Return the kind of a name or an alias.
+
+    Raises:
+        InputError: no such kind.
+    """
+    known = kinds()
+    aliased = {alias: kind for kind in known.values() for alias in kind.aliases if not kind.adopts}
+    if name in known:
+        return known[name]
+    if name in aliased:
+        return aliased[name]
+    raise InputError(f"kind: {expected_one_of(name, known)}")
+
+
+def kind_of_table(table: Table) -> Kind:
+    """Return the kind of a suite's table, also where it has an older name.
+
+    Raises:
+        InputError: no such kind.
+    """
+    name = str(table.get("kind", ""))
+    for kind in kinds().values():
+        if name in kind.aliases and kind.adopts is not None and kind.adopts(table):
+            return kind
+    return kind_named(name)
+
+
+def kind_of(experiment: Experiment) -> Kind:
+    """Return the kind of a spec.
+
+    Raises:
+        InputError: its kind is not registered in this process.
+    """
+    return kind_named(str(type(experiment).__struct_config__.tag))

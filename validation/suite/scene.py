@@ -1,0 +1,28 @@
+"""Scenes within an experiment: its seed and number of scenes, and the renderer of the machine."""
+
+import msgspec
+
+from synth.spec import SceneSpec
+
+
+def check_scene_is_single(scene: SceneSpec) -> None:
+    """Refuse a scene with a seed or a number of scenes of its own: the experiment has them.
+
+    Raises:
+        ValueError: it has one.
+    """
+    if scene.seed != 0 or scene.scenes != 1:
+        raise ValueError(
+            "expected seed and scenes beside the experiment's name, found one of them under scene"
+        )
+
+
+def with_renderer(scene: SceneSpec) -> SceneSpec:
+    """Return the scene with the renderer that this machine has in place of `auto`.
+
+    Raises:
+        MissingBackendError: the machine lacks it.
+    """
+    from synth.render import choose_backend  # noqa: PLC0415 (slow to import, and not for a parser)
+
+    return msgspec.structs.replace(scene, renderer=choose_backend(scene.renderer))

@@ -1,6 +1,6 @@
 # `make demo` and `make test` each set up all they need first; a second run sets up nothing again.
 
-.PHONY: demo baseline compare test lint check-wheel setup clean
+.PHONY: demo baseline compare test lint check-wheel example-ci setup clean
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 1)
 
@@ -24,6 +24,10 @@ lint: .venv/.ready
 	.venv/bin/ruff check
 	.venv/bin/mypy
 	.venv/bin/lint-imports
+
+# The example of a project of one's own, once green and once red, with its pages and JUnit files.
+example-ci: .venv/.ready
+	PYTEST=$(CURDIR)/.venv/bin/pytest examples/ci/check.sh reports/example-ci
 
 # The wheel outside the checkout, on the oldest and the newest dependencies and on Python 3.13.
 check-wheel: .venv/.ready

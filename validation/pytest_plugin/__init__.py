@@ -9,10 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from validation.pytest_plugin.fixtures import rockshape_scene, rockshape_view
 from validation.pytest_plugin.shared import SHARED, remove_shared_folder, shared_folder
 
 if TYPE_CHECKING:
     from validation.pytest_plugin.collect import SuiteFile
+
+__all__ = ["rockshape_scene", "rockshape_view"]  # fixtures, for pytest to find
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

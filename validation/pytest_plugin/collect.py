@@ -44,7 +44,6 @@ class SuiteFile(pytest.File):
         inside = path.is_relative_to(parent.config.rootpath)
         collector: SuiteFile = cls.from_parent(parent, path=path, nodeid=None if inside else word)
         collector.word = word
-        parent.config.stash.setdefault(_REACHED, set()).add(path)
         return collector
 
     def collect(self) -> Iterator[pytest.Item]:
@@ -53,6 +52,7 @@ class SuiteFile(pytest.File):
         Raises:
             CollectError: one line on a suite, a measure or a gate that cannot be used.
         """
+        self.config.stash.setdefault(_REACHED, set()).add(self.path)
         try:
             suite = read_suite(self.word)
         except InputError as error:

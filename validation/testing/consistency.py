@@ -26,6 +26,7 @@ def assert_consistent(
         AssertionError: a bound is missed, or no rock is shown twice; rocks or pairs are named.
         InputError: neither bound is given, or something other than numbers by view and rock.
     """
+    __tracebackhide__ = True
     if cv_at_most is None and order_at_least is None:
         raise InputError("assert_consistent: expected cv_at_most or order_at_least, found neither")
     table = by_view(values_by_view)
@@ -41,6 +42,7 @@ def assert_consistent(
 
 
 def _assert_steady(table: pd.DataFrame, cv_at_most: float) -> None:
+    __tracebackhide__ = True
     cvs = coefficients_of_variation([_block(table)])
     often = np.isfinite(table.to_numpy()).sum(axis=0) > 1
     above = np.flatnonzero(often & ~(cvs <= cv_at_most)).tolist()
@@ -61,6 +63,7 @@ def _rock_line(table: pd.DataFrame, rock: int, cv: float) -> str:
 
 
 def _assert_ordered_alike(table: pd.DataFrame, order_at_least: float) -> None:
+    __tracebackhide__ = True
     pairs = between_views([_block(table)])
     share = share_in_order(pairs)
     if share >= order_at_least:

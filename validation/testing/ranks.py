@@ -28,6 +28,7 @@ def assert_ranks(
 
     Source: Kendall (1945), "The treatment of ties in ranking problems".
     """
+    __tracebackhide__ = True
     rocks = _side_by_side(by_rock(values, what="values"), by_rock(truth, what="truth"))
     known = np.isfinite(rocks.to_numpy()).all(axis=1)
     if not known.all() and not allow_missing:

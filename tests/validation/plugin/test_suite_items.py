@@ -4,7 +4,6 @@ import xml.etree.ElementTree as ET
 
 import pytest
 
-import validation.pytest_plugin.suite_run  # noqa: F401 (pytester forgets what a run imports first)
 from validation.peers.function import load_function
 
 pytest_plugins = ["pytester"]
@@ -140,10 +139,19 @@ def test_gates_are_chosen_by_id_by_keyword_and_as_last_failed(project) -> None:
     _run(project, *JOBS, "--lf").assert_outcomes(failed=1)
 
 
+def test_a_suite_outside_the_test_folder_is_collected_once(project) -> None:
+    project.write(("at_least = 0.9", "r"))
+    project.makeini("[pytest]\ntestpaths = tests\n")
+    (project.mkdir("tests") / "test_it.py").write_text("def test_it():\n    pass\n")
+    result = _run(project, "--collect-only", "-q")
+    result.stdout.fnmatch_lines(["tests/test_it.py::test_it", "mine.toml::*", "2 tests collected*"])
+
+
 def test_without_a_gate_to_run_nothing_is_run(project) -> None:
     project.write(("at_least = 0.9", "r"), function="counted", column="roundness")
     result = _run(project, "--collect-only", "-q")
     result.stdout.fnmatch_lines(["mine.toml::drawn.own.roundness.roundness.tau>=0.9"])
+    result.stdout.fnmatch_lines(["1 test collected*"])
     assert not (project.path / "drawings.txt").exists()
 
 

@@ -26,13 +26,25 @@ COMMANDS = list(_commands(build_parser()))
 LIGHT = [words for words in COMMANDS if words and words[0] != "validate"]
 
 
-def _run(*arguments: str) -> tuple[str, set[str]]:
-    """What a run prints, and the packages that it imports."""
-    command = [sys.executable, "-X", "importtime", "-m", "rockshape.cli", *arguments]
+def _python(*arguments: str) -> tuple[str, set[str]]:
+    """What Python prints, and the packages that it imports."""
+    command = [sys.executable, "-X", "importtime", *arguments]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     modules = {line.rpartition("|")[2].strip() for line in done.stderr.splitlines()}
-    assert "argparse" in modules
     return done.stdout, {module.partition(".")[0] for module in modules}
+
+
+def _run(*arguments: str) -> tuple[str, set[str]]:
+    printed, imported = _python("-m", "rockshape.cli", *arguments)
+    assert "argparse" in imported
+    return printed, imported
+
+
+@pytest.mark.parametrize("package", ["rockshape", "synth", "validation"])
+def test_importing_a_package_imports_nothing_heavy(package):
+    _, imported = _python("-c", f"import {package}")
+    assert package in imported
+    assert imported & HEAVY == set()
 
 
 def test_all_commands_are_seen():

@@ -8,7 +8,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 CHECKOUT=$PWD
-PYTHON=${PYTHON:-.venv/bin/python}
+PYTHON=${PYTHON:-$CHECKOUT/.venv/bin/python}
 WORK=$(mktemp -d)
 trap 'rm -rf "$WORK"' EXIT
 IMAGE=$CHECKOUT/examples/mars/i944014r.png
@@ -56,6 +56,17 @@ use() { # NAME: what a user does first, far from the checkout
     quiet "$bin/rockshape" synth scene scenes --rocks 2 --views 1 --seed 1
     "$bin/rockshape" validate run --suite shapes-roundness --out suite --jobs 1 2>"$WORK/log" ||
         { cat "$WORK/log"; return 1; }
+    quiet "$bin/python" -m pytest -p no:cacheprovider --rockshape-suite shapes-roundness --rockshape-jobs 1
+    say "$1: as pytest items: $(tail -1 "$WORK/log")"
+    cd "$CHECKOUT"
+}
+
+readme_lines() { # NAME: the Python that README.md shows
+    cd "$WORK/$1-use"
+    cp -r "$CHECKOUT/examples" .
+    "$PYTHON" "$CHECKOUT/tools/doc_blocks.py" "$CHECKOUT/README.md" >readme.py
+    quiet env MPLBACKEND=Agg "$WORK/$1/bin/python" readme.py
+    say "$1: the Python of README.md runs"
     cd "$CHECKOUT"
 }
 
@@ -83,6 +94,7 @@ for flavour in "${@:-oldest newest 3.13}"; do
         newest)
             install newest "$PYTHON"
             use newest
+            readme_lines newest
             ;;
         3.13)
             if ! python=$(python313); then

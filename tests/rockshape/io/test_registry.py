@@ -1,7 +1,6 @@
 """Format registry: the choice of a format, the refusals, and formats from outside the package."""
 
 import os
-import pickle
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -20,9 +19,7 @@ from rockshape.io import (
     TableFormat,
     known_formats,
     magic,
-    read_camera,
     read_image,
-    read_labels,
     read_range,
     register_format,
     write_image,
@@ -159,60 +156,6 @@ def test_a_writer_from_outside_is_chosen_by_the_suffix(tmp_path: Path) -> None:
     )
     with pytest.raises(InputError, match=r"table\.x: 0"):
         write_table(tmp_path / "table.x", {})
-
-
-CONTENTS = {
-    b"": "an empty file",
-    b"some words": "text",
-    '{"fx": "é"}'.encode(): "JSON",
-    b"[section]\nkey = 1": "text",
-    pickle.dumps([1]): "pickled objects, which are never loaded",
-    b"GIF89a\0\0": "GIF",
-    b"\0\1\2\3\xff": "unknown data that begin with 00 01 02 03",
-    b"ply\nformat ascii 1.0\n": "PLY (range)",
-    b"\xff\xd8\xff\xe0": "JPEG (image)",
-    b"II*\0": "TIFF (image or labels or range)",
-    b"\x93NUMPY": "NPY (labels or range)",
-}
-
-
-@pytest.mark.parametrize(("data", "found"), CONTENTS.items(), ids=CONTENTS.values())
-def test_a_refusal_names_the_file_what_is_known_and_what_was_found(
-    tmp_path: Path, data: bytes, found: str
-) -> None:
-    path = tmp_path / "some.dat"
-    path.write_bytes(data)
-    suffix = "" if not data else ", and the suffix .dat"
-    readers = {
-        "an image (PNG, JPEG, TIFF)": lambda: read_image(path),
-        "labels (PNG, TIFF, NPY, COCO)": lambda: read_labels(path, shape=(2, 2)),
-        "range (NPY, NPZ, TIFF, PNG, PLY)": lambda: read_range(path, shape=(2, 2), camera=None),
-        "a camera (pinhole JSON)": lambda: read_camera(path),
-    }
-    for expected, read in readers.items():
-        if f"{found.partition(' ')[0]}," in expected.replace(")", ","):
-            continue  # the content is of this kind
-        with pytest.raises(InputError) as refused:
-            read()
-        assert str(refused.value) == f"{path}: expected {expected}, found {found}{suffix}"
-
-
-def test_a_file_that_is_not_there_is_refused(tmp_path: Path) -> None:
-    path = tmp_path / "image"
-    with pytest.raises(InputError, match=r"image: expected an image .*found no such file"):
-        read_image(path)
-    with pytest.raises(InputError, match="found a directory"):
-        read_image(tmp_path)
-
-
-def test_text_cut_within_a_character_is_text(tmp_path: Path) -> None:
-    path = tmp_path / "notes"
-    path.write_text("é" * 40000)  # the head ends between the two bytes of one
-    with pytest.raises(InputError, match="found text, and no suffix"):
-        read_image(path)
-    path.write_text("x" + "é" * 40000)
-    with pytest.raises(InputError, match="found text, and no suffix"):
-        read_image(path)
 
 
 def test_whatever_a_reader_raises_is_one_line(tmp_path: Path) -> None:

@@ -20,16 +20,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "rockshape measure photo.jpg --labels outlines.json --descriptors --out rocks.csv",
     )
     parser.add_argument(
-        "image", type=Path, metavar="IMAGE", help="image file, grey or colour (PNG, JPEG, TIFF)"
+        "image",
+        type=Path,
+        metavar="IMAGE",
+        help="image file, grey or colour, a PNG, JPEG or TIFF say",
     )
     inputs = parser.add_argument_group(
-        "inputs", "`rockshape formats` lists the formats of each kind of file"
+        "inputs", "`rockshape formats` lists all formats of each kind of file"
     )
     inputs.add_argument(
         "--range",
         type=Path,
         metavar="FILE",
-        help="z-depth or 3-D point of each pixel (NPY, NPZ, TIFF, PNG, PLY); without it the 3-D "
+        help="z-depth or 3-D point of each pixel, an NPZ or a 16-bit PNG say; without it the 3-D "
         "measures are empty",
     )
     inputs.add_argument(

@@ -32,7 +32,7 @@ from synth.spec.view import CameraSpec, ViewsSpec
 ROCKS = 40
 SEED = 10005
 GOAL_S = 0.6
-STAGES = ("estimate_range_noise", "visible_fraction")
+STAGES = ("visible_fraction",)
 FITS = (
     "trace_outline",
     "edge_of",

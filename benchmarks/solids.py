@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from scipy.stats import kendalltau
 
 from rockshape.camera.camera import Camera
-from rockshape.ground import Ground, fit_plane
-from rockshape.ground.pixel_noise import estimate_range_noise
+from rockshape.ground import fit_ground
 from rockshape.measures import angularity_3d, ellipsoid_error, sphericity_3d
 from rockshape.rock.view import RockView
 from synth.light import light_scene
@@ -71,8 +70,7 @@ def rock_views(
 ) -> Iterator[tuple[int, RockView]]:
     """The rocks of a frame with their true pixels, by instance."""
     points_m = camera.unproject(depth_m)
-    plane = fit_plane(points_m)
-    noise = None if plane is None else estimate_range_noise(points_m, plane, labels != 0)
+    ground = fit_ground(points_m, pixel_rad=1 / camera.fx)
     for number in np.unique(labels[labels != 0]):
         rows, cols = np.nonzero(labels == number)
         window = np.s_[rows.min() : rows.max() + 1, cols.min() : cols.max() + 1]
@@ -83,8 +81,7 @@ def rock_views(
                 corner=(int(rows.min()), int(cols.min())),
                 grid_m=points_m[window],
                 camera=camera,
-                ground=None if plane is None else Ground(plane),
-                noise=noise,
+                ground=ground,
             ),
         )
 

@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.errors import InputError
-from rockshape.ground.pixel_noise import RangeNoise, estimate_range_noise
 from rockshape.measurement import Measurement, Rock
 from rockshape.measures import Reading
 from rockshape.method import Fits, Method, find_method
@@ -72,7 +71,6 @@ class _Scene:
     instances: Instances
     frame: Window  # rows and columns in which rocks could be found
     ground: "Ground | None" = None
-    noise: RangeNoise | None = None
     found: "tuple[FoundRock, ...]" = ()
 
 
@@ -103,10 +101,10 @@ def _scene(
             segmented = segment(observation)
             instances, ground = segmented.instances, segmented.ground
             frame, found = segmented.frame, segmented.found
-        noise = None
-        if ground is not None and observation.points_m is not None:
-            noise = estimate_range_noise(observation.points_m, ground.plane, instances.covered())
-    return _Scene(observation, instances, frame, ground, noise, found)
+            if find is not None and (ground is None or ground.noise is None):
+                # a finder of another method may have no noise model, which measures can need
+                ground = method.ground(observation)
+    return _Scene(observation, instances, frame, ground, found)
 
 
 def _measure_rocks(scene: _Scene, method: Method, *, described: bool) -> tuple[Rock, ...]:
@@ -180,5 +178,4 @@ def _view_rock(scene: _Scene, part: Instance) -> RockView:
         camera=scene.observation.camera,
         ground=scene.ground,
         frame=scene.frame,
-        noise=scene.noise,
     )

@@ -5,8 +5,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from rockshape.ground.noise_model import NoiseModel
 from rockshape.ground.plane import Plane
-from rockshape.ground.range_noise import Noise, estimate_noise
+from rockshape.ground.range_noise import ROWS, estimate_range_noise, estimate_roughness
 from rockshape.ground.robust import fit_inverse_depth
 from rockshape.ground.undulation import Swell, fit_swell, undulates
 
@@ -24,7 +25,7 @@ class Ground:
     """
 
     plane: Plane
-    noise: Noise | None = None  # None: not estimated, and range is taken to be exact
+    noise: NoiseModel | None = None  # None: not estimated, and range is taken to be exact
     swell: Swell | None = None  # None: the plane is all there is
 
     def height_m(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -34,14 +35,16 @@ class Ground:
 
 
 def fit_ground(points_m: NDArray[np.float64], *, pixel_rad: float) -> Ground | None:
-    """The ground under rocks, for points (rows, cols, 3) in the camera frame, NaN where unknown.
+    """Ground under rocks, of points (rows, cols, 3) in the camera frame, NaN where unknown.
 
-    The plane is fitted in inverse depth (see `robust`); the noise is what points below it scatter
-    by (see `noise`); where the ground undulates by more than that, a smooth surface is laid over
-    the plane (see `smooth`). pixel_rad is a pixel's angle. None where too few points lie in front
-    of the camera or no plane is determined.
+    The plane is fitted in inverse depth (`robust`); the range's noise is estimated from residuals
+    about it (`range_noise`); where the ground undulates by more than that, a smooth surface is laid
+    over the plane (`undulation`); what scatters about the surface beyond the range's noise is the
+    ground's roughness. pixel_rad is a pixel's angle. None where too few points lie in front of the
+    camera or no plane is determined.
     """
-    points = _sampled(points_m, SAMPLES)
+    step = _step(points_m, SAMPLES)
+    points = _sampled(points_m, step)
     if len(points) < MIN_POINTS:
         return None
     rays = points / points[:, 2:]
@@ -52,26 +55,49 @@ def fit_ground(points_m: NDArray[np.float64], *, pixel_rad: float) -> Ground | N
     if length == 0:
         return None
     # the camera, at the origin, is above: its height -offset is positive
-    normal, offset_m = -found.coefficients / length, -1 / length
-    height = points @ normal - offset_m
-    slant = np.abs(rays @ normal)
-    noise = estimate_noise(height, points[:, 2], slant, pixel_rad=pixel_rad)
-    swell = None
-    if undulates(points, normal=normal, height_m=height, noise=noise):
-        fine = _sampled(points_m, FINE_SAMPLES)
-        swell = fit_swell(fine, normal=normal, height_m=fine @ normal - offset_m, noise=noise)
+    plane = Plane(
+        normal=-found.coefficients / length,
+        offset_m=-1 / length,
+        sigma_m=float("nan"),
+        accepted=found.accepted,
+    )
+    noise, swell = _range_noise(points_m, plane, pixel_rad=pixel_rad), None
+    if undulates(points, plane=plane, noise=noise, pixels_each=step**2):
+        fine = _step(points_m, FINE_SAMPLES)
+        swell = fit_swell(_sampled(points_m, fine), plane=plane, noise=noise, pixels_each=fine**2)
+    height = Ground(plane, noise, swell).height_m(points)
+    slant = np.abs(rays @ plane.normal)
+    rough_m = estimate_roughness(
+        height, points[:, 2] ** 2 * slant, range_sd_per_m=noise.inverse_depth_sd_per_m
+    )
     if swell is not None:
-        height = height - swell.height_m(points)
-        noise = estimate_noise(height, points[:, 2], slant, pixel_rad=pixel_rad)
-        noise = replace(noise, rough_m=float(np.hypot(noise.rough_m, swell.misfit_m)))
-    near = np.abs(height) <= 3 * noise.height_m(points[:, 2], slant)
+        rough_m = float(np.hypot(rough_m, swell.misfit_m))
+    noise = replace(noise, rough_m=rough_m)
+    near = np.abs(height) <= 3 * noise.height_sd_m(points[:, 2], slant)
     sigma_m = float(height[near].std()) if near.any() else float("nan")
-    plane = Plane(normal=normal, offset_m=offset_m, sigma_m=sigma_m, accepted=found.accepted)
-    return Ground(plane=plane, noise=noise, swell=swell)
+    return Ground(replace(plane, sigma_m=sigma_m), noise, swell)
 
 
-def _sampled(points_m: NDArray[np.float64], count: int) -> NDArray[np.float64]:
-    """About so many points (n, 3) in front of the camera, evenly over the frame."""
-    step = max(1, int(np.sqrt(points_m.shape[0] * points_m.shape[1] / count)))
+def _range_noise(points_m: NDArray[np.float64], plane: Plane, *, pixel_rad: float) -> NoiseModel:
+    """Noise of range about a plane, on ground that is not rough, from whole rows of the frame.
+
+    A point at z-depth Z stands h over the plane n·p = o; its ray meets the plane at Z o/(o + h), so
+    that 1/Z is h/(-o Z) greater than there.
+    """
+    step = max(1, points_m.shape[0] // ROWS)
+    points = points_m[step // 2 :: step]
+    depth = points[..., 2]
+    lever = np.where(depth > 0, -plane.offset_m * depth, np.nan)
+    sd_per_m, window_px = estimate_range_noise(plane.height_m(points) / lever, lever)
+    return NoiseModel(sd_per_m, window_px, 0.0, pixel_rad)
+
+
+def _step(points_m: NDArray[np.float64], count: int) -> int:
+    """Step in rows and columns that leaves about so many points."""
+    return max(1, int(np.sqrt(points_m.shape[0] * points_m.shape[1] / count)))
+
+
+def _sampled(points_m: NDArray[np.float64], step: int) -> NDArray[np.float64]:
+    """Points (n, 3) in front of the camera, at every so-many'th row and column."""
     points = points_m[step // 2 :: step, step // 2 :: step].reshape(-1, 3)
     return points[np.isfinite(points).all(axis=1) & (points[:, 2] > 0)]

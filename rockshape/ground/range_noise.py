@@ -1,86 +1,156 @@
-"""How far the heights of bare ground scatter: roughness everywhere, range noise with distance."""
+"""Range noise estimated from second differences of the ground's inverse depth along image rows.
 
-from dataclasses import dataclass
+A plane's inverse depth is linear along a row of a pinhole image and has no second difference, a
+smooth undulation hardly any. Over a lag at which errors are no longer correlated what is left is
+three independent errors.
+"""
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import nnls
 
-BINS = 8
-MIN_IN_BIN = 30
+Floats = NDArray[np.float64]
+
+ROWS = 96  # of the frame, evenly: enough for 1 % of the standard deviation
+MAX_WINDOW_PX = 11
+PASSES = 3  # of window and variance, each from the other
+CLEAR_PX = 2  # of the lag over the window that was found
+INLIER = 4.0  # standard deviations from the plane beyond which a pixel is a rock or an outlier
+BINS = 6
+MIN_IN_BIN = 100
+CUT = 3.0  # standard deviations within which values count,
+CUT_VARIANCE = 0.9733  # and the variance of the standard normal distribution within them
+ROUNDS = 20
 NORMAL_MEDIAN = 0.6745  # of |x| for the standard normal distribution
-FINE_SHARE = 0.05  # of a pixel's size
-PIXEL_SHARE = 0.25  # heights below this share of a pixel's size cannot be seen
+UNCORRELATED = 0.05
+SEPARABLE = 4.0  # ratio of 1/x² from which roughness can be told from range noise
 
 
-@dataclass(frozen=True)
-class Noise:
-    """Standard deviation of the ground's height at a pixel: sqrt(rough^2 + (range x)^2 + ...).
+def estimate_range_noise(residual_per_m: Floats, lever_m2: Floats) -> tuple[float, int]:
+    """Standard deviation of 1/Z, and side in pixels of the window over which errors correlate.
 
-    x = Z^2 |n . r| with the ray r = (X/Z, Y/Z, 1) turns an error of the inverse depth into one of
-    the height above the plane of normal n. A stereo camera's error of the inverse depth is even
-    over the frame, sigma_d/(f B), so that sigma_Z = Z^2 sigma_d/(f B). The third part is a quarter
-    of a pixel's size on the ground: where range is exact no height below that means anything.
+    residual_per_m (rows, cols) is 1/Z less that of the plane along the same ray, NaN where unknown,
+    positive on rocks; lever_m2 (rows, cols) turns it into a height. Rows need not be neighbours,
+    columns must be. In six bins of the lever x the variance of the second differences is
+    6 (k² + rough²/x²), for the error k of 1/Z and a roughness of the ground that is the same at all
+    distances; both are fitted by non-negative least squares. Each variance is that of the values
+    within three standard deviations, corrected for the tails; a median would jump with the steps of
+    a disparity.
+
+    (0, 1) where fewer than 100 second differences are known: the range is then taken to be exact.
     """
-
-    rough_m: float
-    inverse_depth_per_m: float  # standard deviation of 1/Z
-    pixel_rad: float  # a pixel's angle
-
-    def depth_m(self, depth_m: NDArray[np.floating]) -> NDArray[np.floating]:
-        """Standard deviation of a z-depth."""
-        return self.inverse_depth_per_m * depth_m**2
-
-    def is_fine(self, depth_m: float) -> bool:
-        """Whether heights and z-depths there scatter by less than a twentieth of a pixel's size.
-
-        Matching windows scatter by a quarter of it and more, and bleed over edges; what scatters by
-        less has its edges where the rocks have them.
-        """
-        scatter_m = np.hypot(self.rough_m, self.inverse_depth_per_m * depth_m**2)
-        return bool(scatter_m < FINE_SHARE * self.pixel_rad * depth_m)
-
-    def height_m(
-        self, depth_m: NDArray[np.floating], slant: NDArray[np.floating]
-    ) -> NDArray[np.floating]:
-        """Standard deviation of heights at z-depths, with slant = |n . r|; shapes as given."""
-        moving = (self.inverse_depth_per_m * slant) ** 2 * depth_m**2
-        return np.sqrt(
-            self.rough_m**2 + depth_m**2 * (moving + (PIXEL_SHARE * self.pixel_rad) ** 2)
-        )
+    error = _near_plane(residual_per_m)
+    by_lag = _variances_by_lag(error)
+    variance, window_px = by_lag[-1] / 6, 1
+    for _ in range(PASSES):
+        if variance == 0:
+            return 0.0, 1
+        window_px = _window(by_lag / variance)
+        variance = _range_variance(error, lever_m2, lag=window_px + CLEAR_PX)
+    return float(np.sqrt(variance)), window_px
 
 
-def estimate_noise(
-    height_m: NDArray[np.float64],
-    depth_m: NDArray[np.float64],
-    slant: NDArray[np.float64],
-    *,
-    pixel_rad: float,
-) -> Noise:
-    """Noise from the heights (n,) of points of which rocks make many too high and few too low.
+def _range_variance(error: Floats, lever_m2: Floats, *, lag: int) -> float:
+    """Variance of 1/Z by range noise from second differences; 0 where too few are known."""
+    second = _second_differences(error, lag)
+    lever = np.broadcast_to(lever_m2, error.shape)[:, lag:-lag][np.isfinite(second)]
+    second = second[np.isfinite(second)]
+    bins = [own for own in _bins(lever) if len(own) >= MIN_IN_BIN]
+    if not bins:
+        return 0.0
+    variance = np.array([_clipped_variance(second[own]) / 6 for own in bins])
+    steepness = np.array([np.mean(lever[own] ** -2) for own in bins])
+    return _offset(steepness, variance)
 
-    In each of eight bins of x = Z^2 |n . r| the scatter is that of the lower half, the median of
-    -h over h < 0, divided by 0.6745; variance = rough^2 + range^2 x^2 is fitted to the bins by
-    least squares with neither part below zero. Without enough points below zero both are 0.
+
+def estimate_roughness(height_m: Floats, lever_m2: Floats, *, range_sd_per_m: float) -> float:
+    """Standard deviation of the ground's heights about its surface that range noise leaves over.
+
+    height_m (n,) are heights over the surface and lever_m2 (n,) = |dh/d(1/Z)|. Only points below
+    the surface count, since points above it may be rocks: their scatter in six bins of the lever,
+    less the range noise's variance. The bins' relative errors are alike and weigh alike.
     """
-    lever = depth_m**2 * slant
     below = height_m < 0
-    if below.sum() < MIN_IN_BIN:
-        return Noise(0.0, 0.0, pixel_rad)
-    deep, lever = -height_m[below], lever[below]
-    edges = np.quantile(lever, np.linspace(0, 1, BINS + 1))
-    place = np.clip(np.searchsorted(edges, lever, side="right") - 1, 0, BINS - 1)
-    variances, squares = [], []
-    for number in range(BINS):
-        own = place == number
-        if own.sum() >= MIN_IN_BIN // 2:
-            variances.append((np.median(deep[own]) / NORMAL_MEDIAN) ** 2)
-            squares.append(float(np.mean(lever[own] ** 2)))
-    variance, square = np.array(variances), np.array(squares)
-    # relative errors of the bins are alike, so each is weighed by its own size
-    weight = 1.0 / np.maximum(variance, 1e-12)
-    rows = np.column_stack([np.ones(len(square)), square]) * weight[:, None]
-    scale = np.maximum(np.abs(rows).max(axis=0), 1e-300)
-    parts, _ = nnls(rows / scale, variance * weight)
-    rough, moving = np.sqrt(parts / scale)
-    return Noise(float(rough), float(moving), pixel_rad)
+    deep, lever = -height_m[below], lever_m2[below]
+    excess, weight = [], []
+    for own in _bins(lever):
+        variance = (float(np.median(deep[own])) / NORMAL_MEDIAN) ** 2
+        excess.append(variance - range_sd_per_m**2 * float(np.mean(lever[own] ** 2)))
+        weight.append(1 / max(variance, 1e-18) ** 2)
+    return float(np.sqrt(max(np.average(excess, weights=weight), 0.0))) if excess else 0.0
+
+
+def _near_plane(residual_per_m: Floats) -> Floats:
+    """Residuals without those of rocks and outliers, by the scatter of those below the plane."""
+    below = residual_per_m[residual_per_m < 0]
+    if len(below) == 0:
+        return np.full_like(residual_per_m, np.nan)
+    limit = INLIER * float(np.median(-below)) / NORMAL_MEDIAN
+    return np.where(np.abs(residual_per_m) <= limit, residual_per_m, np.nan)
+
+
+def _second_differences(error: Floats, lag: int) -> Floats:
+    """e(x + lag) - 2 e(x) + e(x - lag), (rows, cols - 2 lag)."""
+    return error[:, 2 * lag :] - 2 * error[:, lag:-lag] + error[:, : -2 * lag]
+
+
+def _variances_by_lag(error: Floats) -> Floats:
+    """Variances of second differences over the lags 0 to 12, clipped by the last's deviation."""
+    found = np.zeros(MAX_WINDOW_PX + 2)
+    found[-1] = _clipped_variance(_second_differences(error, MAX_WINDOW_PX + 1))
+    for lag in range(1, MAX_WINDOW_PX + 1):
+        square = _second_differences(error, lag) ** 2
+        kept = square[square <= CUT**2 * found[-1]]
+        found[lag] = float(np.mean(kept)) / CUT_VARIANCE if len(kept) else found[-1]
+    return found
+
+
+def _window(ratio_by_lag: Floats) -> int:
+    """Side of the correlation window, odd: the integral of the autocorrelation r along the rows.
+
+    ratio_by_lag are variances of second differences over that of the errors, which at a lag l is
+    6 - 8 r(l) + 2 r(2 l).
+    """
+    correlation = np.zeros(2 * MAX_WINDOW_PX + 1)
+    for lag in range(MAX_WINDOW_PX, 0, -1):
+        correlation[lag] = (6 + 2 * correlation[2 * lag] - ratio_by_lag[lag]) / 8
+    end = int(np.argmax(correlation[1:] < UNCORRELATED))
+    side = 1 + 2 * float(correlation[1 : end + 1].sum())
+    return min(2 * round((side - 1) / 2) + 1, MAX_WINDOW_PX)
+
+
+def _bins(lever_m2: Floats) -> list[NDArray[np.intp]]:
+    """Indices into levers (n,) of the points of six bins of about equal size, none empty."""
+    if len(lever_m2) == 0:
+        return []
+    edges = np.quantile(lever_m2, np.linspace(0, 1, BINS + 1)[1:-1])
+    place = np.searchsorted(edges, lever_m2, side="right")
+    return [own for own in (np.flatnonzero(place == one) for one in range(BINS)) if len(own)]
+
+
+def _clipped_variance(values: Floats) -> float:
+    """Variance of normal values of mean 0 among outliers, NaN where unknown; 0 of too few."""
+    square = values[np.isfinite(values)] ** 2
+    if len(square) < MIN_IN_BIN:
+        return 0.0
+    variance = float(np.median(square)) / NORMAL_MEDIAN**2
+    if variance == 0:  # most values are equal
+        variance = float(np.mean(square))
+    for _ in range(ROUNDS):
+        kept = square[square <= CUT**2 * variance]
+        before, variance = variance, float(np.mean(kept)) / CUT_VARIANCE
+        if abs(variance - before) <= 1e-3 * before:
+            break
+    return variance
+
+
+def _offset(x: Floats, y: Floats) -> float:
+    """Value at x = 0 of the line through points (n,) of y, neither falling nor below 0 there.
+
+    Least squares of relative errors. Where x hardly varies the line is level.
+    """
+    weight = 1 / np.maximum(y, 1e-300)
+    rows = np.column_stack([weight, x * weight])
+    offset, slope = np.linalg.lstsq(rows, y * weight, rcond=None)[0]
+    if slope < 0 or x.max() < SEPARABLE * x.min():
+        return float(weight.sum() / (weight**2).sum())
+    return max(float(offset), 0.0)

@@ -11,7 +11,8 @@ import numpy as np
 import scipy.ndimage as ndi
 from numpy.typing import NDArray
 
-from rockshape.ground.range_noise import PIXEL_SHARE, Noise
+from rockshape.ground.noise_model import PIXEL_SHARE, NoiseModel
+from rockshape.ground.plane import Plane
 from rockshape.ground.slope_filter import gentle_below
 from rockshape.ground.thin_plate import bend
 
@@ -19,10 +20,10 @@ Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 
-COARSE_CELL = 0.02  # side of a cell over its distance from the camera's foot: to tell undulation
+COARSE_CELL = 0.03  # side of a cell over its distance from the camera's foot: to tell undulation
 FINE_CELL = 0.01  # and to follow it
 MAX_CELLS = 20_000
-UNEVEN = 1.0  # scatters of a cell's points that cells may differ by on a plane
+UNEVEN = 0.85  # scatters that the lower cells may differ by on a plane
 STEEPEST = 0.5  # slope of ground, 27 degrees; dry sand lies at up to 32
 MAX_SCATTER = 2.0  # of a cell's points over that usual at its distance: on rocks they scatter more
 NEAR_CELLS = 1.0  # standard deviation of the average that a cell beside a rock is held to,
@@ -30,6 +31,7 @@ NEAR_RISE = 0.5  # and the share of the steepest rise that it may stand above it
 STIFF = 0.2  # weight of the surface's bending against a cell's misfit
 TAUT = 0.002  # and of its rise
 MIN_IN_CELL = 3
+MEDIAN_VARIANCE = 1.57  # of n normal values' median over that of their mean
 MIN_CELLS = 40
 TAIL, NORMAL_TAIL = 0.03, 1.881  # a low quantile, and where a normal distribution has it
 NORMAL_BELOW = 0.1587  # share of a normal distribution more than its deviation below its middle
@@ -48,7 +50,7 @@ class Swell:
     origin: Floats  # (2,), of the grid: azimuth in radians and log distance in metres
     cell: float  # side of a cell in both
     nodes_m: Singles  # (azimuths, distances)
-    misfit_m: float  # scatter about it of the cells that are ground
+    misfit_m: float  # scatter about it of the cells that are ground, without range noise's share
 
     def height_m(self, points_m: Floats) -> Singles:
         """Height (...) of the surface above the plane under points (..., 3), 0 under none."""
@@ -67,21 +69,24 @@ class Swell:
         return np.where(known, height, np.float32(0))
 
 
-def undulates(points_m: Floats, *, normal: Floats, height_m: Floats, noise: Noise) -> bool:
-    """Whether the ground under points (n, 3) of heights (n,) over its plane is no plane.
+def undulates(points_m: Floats, *, plane: Plane, noise: NoiseModel, pixels_each: int = 1) -> bool:
+    """Whether the ground under points (n, 3) is no plane.
 
     Points are gathered in the cells of a grid over the plane. It is one where the lower cells
     differ, from their 10 % to their 40 % quantile, which rocks on less than half of the ground
-    leave be, no more than the points within one cell scatter.
+    leave be, no more than the points within one cell scatter, or the range's noise there: a cell
+    may lie within one matching window, whose points share an error.
     """
-    cells = _gather(points_m, normal=normal, height_m=height_m, noise=noise, cell=COARSE_CELL)
+    cells = _gather(points_m, plane=plane, noise=noise, pixels_each=pixels_each, cell=COARSE_CELL)
     if cells is None:
         return False
-    value = cells.middle_m[cells.seen] / cells.scatter_m[cells.seen]
+    value = cells.middle_m[cells.seen] / np.maximum(cells.scatter_m, cells.noise_m)[cells.seen]
     return float(np.subtract(*np.quantile(value, (0.4, 0.1)))) > UNEVEN
 
 
-def fit_swell(points_m: Floats, *, normal: Floats, height_m: Floats, noise: Noise) -> Swell | None:
+def fit_swell(
+    points_m: Floats, *, plane: Plane, noise: NoiseModel, pixels_each: int = 1
+) -> Swell | None:
     """A smooth surface through the points (n, 3) of ground that undulates.
 
     A cell of the grid has the median height h of its points. Of the cells those are ground that lie
@@ -93,13 +98,15 @@ def fit_swell(points_m: Floats, *, normal: Floats, height_m: Floats, noise: Nois
     (rise)^2 over all cells (see `bend`), so that it passes calmly below rocks. None where too few
     cells are seen.
     """
-    cells = _gather(points_m, normal=normal, height_m=height_m, noise=noise, cell=FINE_CELL)
+    cells = _gather(points_m, plane=plane, noise=noise, pixels_each=pixels_each, cell=FINE_CELL)
     if cells is None:
         return None
     ground = _ground_cells(cells)
     nodes_m = bend(cells.middle_m, ground.astype(np.float32), stiff=STIFF, taut=TAUT)
     low, high = np.quantile((cells.middle_m - nodes_m)[ground], (TAIL, 1 - TAIL))
-    misfit_m = max(-float(low), float(high), 0.0) / NORMAL_TAIL
+    scatter_m = max(-float(low), float(high), 0.0) / NORMAL_TAIL
+    noise_m = float(np.sqrt(np.mean(cells.noise_m[ground] ** 2))) if ground.any() else 0.0
+    misfit_m = float(np.sqrt(max(scatter_m**2 - noise_m**2, 0.0)))
     return Swell(cells.axes, cells.origin, cells.side, nodes_m, misfit_m)
 
 
@@ -121,11 +128,13 @@ class _Cells:
     seen: Mask  # holds points enough
     middle_m: Singles  # median height, 0 where not seen
     scatter_m: Singles  # of the lower half, at least a quarter of a pixel's size
+    noise_m: Singles  # standard deviation of the median by range noise
 
 
 def _gather(
-    points_m: Floats, *, normal: Floats, height_m: Floats, noise: Noise, cell: float
+    points_m: Floats, *, plane: Plane, noise: NoiseModel, pixels_each: int, cell: float
 ) -> _Cells | None:
+    normal, height_m = plane.normal, plane.height_m(points_m)
     ahead = np.array([0.0, 0.0, 1.0]) - normal[2] * normal
     length = float(np.linalg.norm(ahead))
     if length < 1e-6:  # straight down: any direction is ahead
@@ -156,10 +165,19 @@ def _gather(
     far = np.bincount(number, points_m[inside, 2], minlength=len(count))[own] / count[own]
     least = PIXEL_SHARE * noise.pixel_rad * far
     seen = np.zeros(len(count), dtype=bool)
-    middle_m, scatter_m = np.zeros((2, len(count)), dtype=np.float32)
+    middle_m, scatter_m, noise_m = np.zeros((3, len(count)), dtype=np.float32)
     seen[own], middle_m[own], scatter_m[own] = True, middle, np.maximum(middle - lower, least)
+    windows = count[own] * pixels_each / noise.window_px**2
+    share = np.sqrt(np.minimum(MEDIAN_VARIANCE / windows, 1))
+    noise_m[own] = share * noise.inverse_depth_sd_per_m * far * -plane.offset_m
     return _Cells(
-        axes, low, side, seen.reshape(shape), middle_m.reshape(shape), scatter_m.reshape(shape)
+        axes,
+        low,
+        side,
+        seen=seen.reshape(shape),
+        middle_m=middle_m.reshape(shape),
+        scatter_m=scatter_m.reshape(shape),
+        noise_m=noise_m.reshape(shape),
     )
 
 

@@ -99,13 +99,6 @@ class Instances:
         ]
         return np.array(sides, dtype=np.intp).reshape(-1, 4).T
 
-    def covered(self) -> NDArray[np.bool_]:
-        """Pixels (rows, cols) of any rock."""
-        covered = np.zeros(self.shape, dtype=bool)
-        for item in self.items:
-            covered[item.window] |= item.mask
-        return covered
-
     def largest_parts(self) -> Self:
         """The same rocks, each with the largest part of its mask alone (8-connected), in its box.
 

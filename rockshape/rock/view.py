@@ -13,7 +13,6 @@ from rockshape.ellipse.arc import fit_arc
 from rockshape.ellipse.direct import Ellipse, fit_ellipse
 from rockshape.ellipse.moments import moment_ellipse
 from rockshape.ellipsoid import Ellipsoid, EllipsoidFit, Resting, fit_ellipsoid, fit_held_ellipsoid
-from rockshape.ground.pixel_noise import RangeNoise
 from rockshape.outline.edge import edge_of
 from rockshape.outline.extent import feret_diameters
 from rockshape.outline.resample import form_outline, pixel_smooth
@@ -22,7 +21,7 @@ from rockshape.rock.visibility import touches_border
 from rockshape.surface import ResidualCurvature, Surface, fit_surface, measure_relief, view_patch
 
 if TYPE_CHECKING:
-    from rockshape.ground import Ground
+    from rockshape.ground import Ground, NoiseModel
 
 MIN_WIDTH_PX = 4.0
 NOISE_DRAWS = 4  # of errors like the range's, to tell what they alone would make of a surface
@@ -41,7 +40,11 @@ class RockView:
     camera: Camera | None = None
     ground: "Ground | None" = None
     frame: tuple[slice, slice] | None = None  # rows and columns in which rocks can be seen
-    noise: RangeNoise | None = None  # None: the range is taken to be exact
+
+    @property
+    def noise(self) -> "NoiseModel | None":
+        """Noise of the range; None where it is taken to be exact."""
+        return None if self.ground is None else self.ground.noise
 
     @cached_property
     def truncated(self) -> bool:

@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from rockshape.camera.camera import Camera
 from rockshape.ellipsoid import Ellipsoid
-from rockshape.ground.pixel_noise import RangeNoise
+from rockshape.ground import NoiseModel
 from rockshape.measures.angularity_3d import angularity_3d
 from rockshape.surface import ResidualCurvature, measure_relief
 from tests import solids
@@ -111,7 +111,7 @@ def test_noise_is_taken_off(rng: np.random.Generator) -> None:
     grid = seen(BODY)
     inside = np.isfinite(grid).all(axis=-1)
     exact = cut(grid[inside], 0.2)
-    noise = RangeNoise(0.0008, 7)  # 3 mm at 2 m
+    noise = NoiseModel(0.0008, 7, 0.0, 1e-3)  # 3 mm at 2 m
     depth = np.full(inside.shape, np.nan)
     depth[inside] = exact[:, 2]
     error = noise.draw_m(depth, rng=rng)[inside]

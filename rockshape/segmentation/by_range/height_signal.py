@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.ground import Ground, Noise
+from rockshape.ground import Ground, NoiseModel
 
 Singles = NDArray[np.float32]
 Mask = NDArray[np.bool_]
@@ -32,7 +32,7 @@ class HeightSignal:
     fine: bool  # whether range is exact beside its pixels, and its edges the rocks'
 
 
-def relief_of(points_m: NDArray[np.float64], ground: Ground, noise: Noise) -> HeightSignal:
+def relief_of(points_m: NDArray[np.float64], ground: Ground, noise: NoiseModel) -> HeightSignal:
     """Heights of points (rows, cols, 3), NaN where unknown, in units of the noise there.
 
     The noise of a height is the ground's: its roughness, and the range's, which grows with the
@@ -45,7 +45,7 @@ def relief_of(points_m: NDArray[np.float64], ground: Ground, noise: Noise) -> He
     height[~known], depth[~known] = 0.0, 0.0
     above = np.abs(height + np.float32(ground.plane.offset_m))
     with np.errstate(divide="ignore", invalid="ignore"):
-        sigma = noise.height_m(depth, np.where(known, above / depth, 0)).astype(np.float32)
+        sigma = noise.height_sd_m(depth, np.where(known, above / depth, 0)).astype(np.float32)
     sigma[~known] = 1.0
     fine = bool(known.any()) and noise.is_fine(float(np.median(depth[known])))
     signal = height / sigma if fine else cv2.medianBlur(height / sigma, MEDIAN_PX)
@@ -54,7 +54,7 @@ def relief_of(points_m: NDArray[np.float64], ground: Ground, noise: Noise) -> He
         height_m=height,
         depth_m=depth,
         sigma_m=sigma,
-        depth_sd_m=noise.depth_m(depth).astype(np.float32),
+        depth_sd_m=noise.depth_sd_m(depth).astype(np.float32),
         signal=np.asarray(signal, np.float32),
         known=known,
         pixel_rad=noise.pixel_rad,

@@ -2,7 +2,6 @@ import numpy as np
 import pytest
 
 from rockshape.ground import fit_ground
-from rockshape.ground.range_noise import estimate_noise
 from rockshape.ground.robust import fit_inverse_depth
 from tests import solids
 
@@ -74,17 +73,6 @@ def test_holes_and_wild_points_leave_the_plane(rng: np.random.Generator) -> None
     ground = fit_ground(points, pixel_rad=PIXEL_RAD)
     assert ground is not None
     assert ground.plane.offset_m == pytest.approx(-1.5, abs=1e-3)
-
-
-def test_noise_that_grows_with_distance_is_told_from_roughness(rng: np.random.Generator) -> None:
-    depth = rng.uniform(1.5, 8.0, 40_000)
-    slant = 1.5 / depth
-    height = rng.normal(scale=np.hypot(0.004, 6e-4 * depth**2 * slant))
-    noise = estimate_noise(height, depth, slant, pixel_rad=1e-3)
-    # a median of 2,500 values in each of eight bins is known to 2 %; the two parts trade some
-    assert noise.rough_m == pytest.approx(0.004, rel=0.1)
-    assert noise.inverse_depth_per_m == pytest.approx(6e-4, rel=0.1)
-    assert noise.depth_m(np.array(2.0)) == pytest.approx(4 * noise.inverse_depth_per_m)
 
 
 def test_ripples_are_followed_and_rocks_on_them_are_not() -> None:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rockshape.ground.range_noise import Noise
+from rockshape.ground import NoiseModel, Plane
 from rockshape.ground.slope_filter import gentle_below
 from rockshape.ground.thin_plate import bend
 from rockshape.ground.undulation import fit_swell, undulates
@@ -71,10 +71,10 @@ def test_straight_down_there_is_no_azimuth_and_few_points_are_no_surface(
     rng: np.random.Generator,
 ) -> None:
     points = rng.random((500, 3)) + np.array([0, 1, 2])
-    heights = rng.random(500)
-    noise = Noise(0.0, 0.0, 1e-3)
-    down = np.array([0.0, 0.0, -1.0])
-    assert not undulates(points, normal=down, height_m=heights, noise=noise)
-    assert fit_swell(points, normal=down, height_m=heights, noise=noise) is None
-    assert fit_swell(points[:50], normal=NORMAL, height_m=heights[:50], noise=noise) is None
-    assert fit_swell(points, normal=NORMAL, height_m=heights, noise=noise) is None
+    noise = NoiseModel(0.0, 1, 0.0, 1e-3)
+    down = Plane(np.array([0.0, 0.0, -1.0]), offset_m=-3.0, sigma_m=0.0, accepted=1.0)
+    level = Plane(NORMAL, offset_m=-2.0, sigma_m=0.0, accepted=1.0)
+    assert not undulates(points, plane=down, noise=noise)
+    assert fit_swell(points, plane=down, noise=noise) is None
+    assert fit_swell(points[:50], plane=level, noise=noise) is None
+    assert fit_swell(points, plane=level, noise=noise) is None

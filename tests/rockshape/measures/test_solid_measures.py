@@ -5,8 +5,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from rockshape.ground import Ground, Plane
-from rockshape.ground.pixel_noise import RangeNoise
+from rockshape.ground import Ground, NoiseModel, Plane
 from rockshape.measures import Reason, angularity_3d, ellipsoid_error, sphericity_3d
 from rockshape.rock.view import RockView
 from tests import solids
@@ -19,13 +18,13 @@ AXES = Rotation.from_rotvec([0.4, -0.3, 0.7]).as_matrix()
 
 
 def view(
-    grid: NDArray[np.float64], *, scale: float = 1.0, noise: RangeNoise | None = None
+    grid: NDArray[np.float64], *, scale: float = 1.0, noise: NoiseModel | None = None
 ) -> RockView:
     mask = np.isfinite(grid).all(axis=-1)
     low = UP @ CENTRE - np.linalg.norm(HALF_AXES * (AXES @ UP))
-    ground = Ground(Plane(normal=UP, offset_m=float(scale * low), sigma_m=0.0, accepted=1.0))
+    plane = Plane(normal=UP, offset_m=float(scale * low), sigma_m=0.0, accepted=1.0)
     return RockView(
-        mask=mask, grid_m=scale * grid, camera=solids.CAMERA, ground=ground, noise=noise
+        mask=mask, grid_m=scale * grid, camera=solids.CAMERA, ground=Ground(plane, noise)
     )
 
 
@@ -73,9 +72,7 @@ def test_holes_and_a_tenth_of_outliers(rng: np.random.Generator) -> None:
     holes = grid.copy()
     holes[rng.random(mask.shape) < 0.3] = np.nan
     holed = view(holes)
-    pierced = RockView(
-        mask=mask, grid_m=holes, camera=solids.CAMERA, ground=holed.ground, noise=None
-    )
+    pierced = RockView(mask=mask, grid_m=holes, camera=solids.CAMERA, ground=holed.ground)
     # other points are drawn
     assert values(pierced) == pytest.approx(once, rel=0.05)
     wild = mask & (rng.random(mask.shape) < 0.1)
@@ -87,7 +84,7 @@ def test_holes_and_a_tenth_of_outliers(rng: np.random.Generator) -> None:
 
 
 def test_what_noise_hides_is_not_told() -> None:
-    rock = view(rough(0.006), noise=RangeNoise(0.02, 7))  # 8 cm at 2 m
+    rock = view(rough(0.006), noise=NoiseModel(0.02, 7, 0.0, 1 / solids.CAMERA.fx))  # 8 cm at 2 m
     error, sphericity, angularity = (measure.read(rock) for measure in MEASURES)
     assert error.reason == angularity.reason == Reason.NOT_RESOLVABLE
     assert np.isfinite(sphericity.value)

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from rockshape.errors import InputError
-from rockshape.ground import fit_ground
-from rockshape.ground.range_noise import Noise
+from rockshape.ground import NoiseModel, fit_ground
 from rockshape.observation import Observation
 from rockshape.segmentation import Segmentation
 from rockshape.segmentation.by_range.height_signal import relief_of
@@ -155,10 +154,10 @@ def test_exact_range_keeps_its_outlines_whatever_the_image_shows() -> None:
 
 @pytest.mark.parametrize(
     ("rough_m", "inverse_depth_per_m", "fine"),
-    [(0.0, 0.0, True), (2e-5, 1e-6, True), (2e-3, 0.0, False), (0.0, 1e-4, False)],
+    [(0.0, 0.0, True), (2e-5, 1e-6, True), (2e-3, 1e-6, True), (0.0, 1e-4, False)],
 )
 def test_fine_range_is_finer_than_a_twentieth_of_a_pixel(
     rough_m: float, inverse_depth_per_m: float, fine: bool
 ) -> None:
     # At 4 m a pixel of 0.8 mrad is 3.2 mm: a twentieth is 0.16 mm.
-    assert Noise(rough_m, inverse_depth_per_m, 8e-4).is_fine(4.0) is fine
+    assert NoiseModel(inverse_depth_per_m, 7, rough_m, 8e-4).is_fine(4.0) is fine

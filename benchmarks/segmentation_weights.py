@@ -18,10 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.io import read_image
+from rockshape.outline.polygon_fill import inside_of
 from rockshape.segmentation.by_image.ground_appearance import read_lightness
 from rockshape.segmentation.by_image.proposal_score import features_of
 from rockshape.segmentation.by_image.star_proposals import propose
-from rockshape.segmentation.polygon_fill import inside_of
 from synth.dataset.write import write_scene
 from synth.render import choose_backend
 from validation.kinds.segmentation.spec import SegmentationExperiment

@@ -1,14 +1,23 @@
-"""Measure the shape of rocks from an image and its range.
+"""Shape of rocks, measured from an image and its range.
 
-`measure` takes arrays; each measure by itself is a function of `rockshape.measures`. Names and
-submodules are imported when first asked for.
+`measure` takes arrays, `read` reads files; each measure is a function of one rock's mask, outline
+or points, `roundness(mask)` for instance. Names are imported when they are first asked for.
 
 The parts, in the order data flows through them: `io` reads files, `observation` holds an image and
 its range, `ground` and `segmentation` find the rocks, `outline`, `ellipse`, `ellipsoid` and
-`surface` fit each, `measures` turns fits into numbers, `pipeline` joins all that, `measurement`
-is what comes out, with its table, and `report` shows it.
+`surface` fit each, `measures` turns fits into numbers, `method` says which, `pipeline` joins all
+that, `measurement` is the result with its table, and `report` shows it.
 """
 
 import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+_public, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+
+
+def __getattr__(name: str) -> object:
+    """Public name; the version is the distribution's."""
+    if name == "__version__":
+        from importlib.metadata import version  # noqa: PLC0415 - it takes as long as all else
+
+        return version("rockshape")
+    return _public(name)

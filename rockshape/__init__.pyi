@@ -1,8 +1,35 @@
 from . import measures as measures
 from .api import measure as measure
+from .api import read as read
 from .camera.camera import Camera as Camera
+from .camera.camera import PinholeLike as PinholeLike
 from .errors import InputError as InputError
+from .ground import Ground as Ground
 from .measurement import Measurement as Measurement
 from .measurement import Rock as Rock
+from .measures.functions import angularity_2d as angularity_2d
+from .measures.functions import angularity_3d as angularity_3d
+from .measures.functions import axis_ratio as axis_ratio
+from .measures.functions import ellipse_error as ellipse_error
+from .measures.functions import ellipsoid_error as ellipsoid_error
+from .measures.functions import roundness as roundness
+from .measures.functions import sphericity_2d as sphericity_2d
+from .measures.functions import sphericity_3d as sphericity_3d
+from .measures.measure import Measure as Measure
+from .measures.reading import Reading as Reading
+from .measures.reading import Reason as Reason
+from .method import PAPER as PAPER
+from .method import ROBUST as ROBUST
+from .method import Method as Method
+from .method import methods as methods
+from .method import register_method as register_method
+from .observation import GreyImage as GreyImage
+from .observation import LabelImage as LabelImage
 from .observation import Observation as Observation
+from .observation import Outline as Outline
+from .observation import PointGrid as PointGrid
 from .report.overlay import overlay as overlay
+from .rock.instances import Instance as Instance
+from .rock.instances import Instances as Instances
+
+__version__: str

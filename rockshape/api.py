@@ -1,10 +1,13 @@
 """Measurement of arrays: from pixels and range to the measures of each rock in one call."""
 
+from pathlib import Path
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rockshape.camera.camera import Camera, PinholeLike, as_camera
 from rockshape.errors import InputError
+from rockshape.io import read_camera, read_labels, read_pixels, read_range
 from rockshape.io.pixels import to_grey
 from rockshape.measurement import Measurement
 from rockshape.method import Method
@@ -79,6 +82,29 @@ def observe(
         colour=pixels if pixels is not None and pixels.ndim == 3 else None,
         instances=instances,
     )
+
+
+def read(
+    image: Path | str,
+    *,
+    range: Path | str | None = None,  # noqa: A002 - as the command line has it
+    camera: Path | str | None = None,
+    labels: Path | str | None = None,
+) -> Observation:
+    """Observation of files, as `rockshape measure` reads them; `measure` takes it.
+
+    The formats are those of `rockshape formats`. With labels, `measure` measures those rocks.
+    Raises: InputError, which names the file, for what cannot be read or does not fit the image.
+    """
+    pixels = read_pixels(image)
+    known = None if camera is None else read_camera(camera, shape=pixels.shape)
+    points_m = None
+    if range is not None:
+        points_m = read_range(range, shape=pixels.shape, camera=known)
+    instances = None
+    if labels is not None:
+        instances = read_labels(labels, shape=pixels.shape, image_name=Path(image).name)
+    return observe(pixels, range_m=points_m, camera=known, labels=instances)
 
 
 def _instances(labels: ArrayLike | Instances) -> Instances:

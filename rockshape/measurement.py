@@ -1,8 +1,10 @@
 """Measurement of one image: a record for each rock, and their table."""
 
 import dataclasses
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from html import escape
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,11 +20,13 @@ from rockshape.rock.instances import Instances
 
 if TYPE_CHECKING:
     import pandas as pd
+    from matplotlib.axes import Axes
 
     from rockshape.ground import Ground
     from rockshape.segmentation import FoundRock
 
 
+OUTLINE_COLOUR, ELLIPSE_COLOUR = "#ffd138", "#40b4ff"
 PLACE = ("rock", "row", "col", "area_px", "width_px", "height_px", "truncated", "visible_fraction")
 FLAGS = ("branch", "flags", "outline_sd_px")
 AXES = ("axis_a_m", "axis_b_m", "axis_c_m")
@@ -41,7 +45,7 @@ DESCRIPTORS = {
 }
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Rock:
     """One rock's row of the table, with the outline and fits it was measured on."""
 
@@ -70,10 +74,24 @@ class Rock:
         reasons = [reading.reason for reading in self.readings.values() if reading.reason]
         return "; ".join(dict.fromkeys(reasons))
 
+    def __getattr__(self, name: str) -> Reading:
+        """Reading of a measure by its column: `rock.roundness`."""
+        readings: dict[str, Reading] = self.__dict__.get("readings", {})
+        if name not in readings:
+            raise AttributeError(f"rock: expected one of {', '.join(readings)}, found {name!r}")
+        return readings[name]
 
-@dataclass(frozen=True, eq=False)
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self.readings]
+
+    def __repr__(self) -> str:
+        readings = ", ".join(f"{name}={reading!r}" for name, reading in self.readings.items())
+        return f"Rock({self.number} at ({self.row:.1f}, {self.col:.1f}), {readings})"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Measurement:
-    """What was found in one image."""
+    """Rocks found in one image and measured; a sequence of `Rock`."""
 
     method: str  # its name
     measures: tuple[Measure, ...]  # in the order of the table
@@ -91,9 +109,44 @@ class Measurement:
         labels.setflags(write=False)
         return labels
 
+    def __len__(self) -> int:
+        return len(self.rocks)
+
+    def __iter__(self) -> Iterator[Rock]:
+        return iter(self.rocks)
+
+    def __getitem__(self, index: int) -> Rock:
+        return self.rocks[index]
+
+    def __repr__(self) -> str:
+        rows, cols = self.instances.shape
+        return f"Measurement({len(self)} rocks, method={self.method!r}, image {rows} x {cols})"
+
+    def _repr_html_(self) -> str:
+        table = to_frame(self).to_html(index=False, float_format="{:.4g}".format, na_rep="")
+        return f"<p>{escape(repr(self))}</p>\n{table}"
+
     def to_frame(self) -> "pd.DataFrame":
-        """The table, one row a rock; see `to_frame`."""
+        """Table, one row a rock; see `to_frame`."""
         return to_frame(self)
+
+    def plot(self, axes: "Axes | None" = None) -> "Axes":
+        """Draw the image with each rock's outline, number and ellipse on matplotlib axes."""
+        from matplotlib import pyplot as plt  # noqa: PLC0415 - half a second that few need
+
+        axes = plt.subplots(layout="constrained")[1] if axes is None else axes
+        axes.imshow(self.observation.image, cmap="gray", vmin=0, vmax=1)
+        for rock in self.rocks:
+            for ring, colour in ((rock.ellipse, ELLIPSE_COLOUR), (rock.outline_px, OUTLINE_COLOUR)):
+                if ring is not None:
+                    points = ring.ring() if isinstance(ring, Ellipse) else ring
+                    axes.plot(*np.vstack([points, points[:1]]).T, color=colour, linewidth=1)
+            label = axes.text(rock.col, rock.row, str(rock.number), ha="center", va="center")
+            label.set(color="white", fontsize=8, clip_on=True)
+        rows, cols = self.instances.shape
+        axes.set(xlim=(-0.5, cols - 0.5), ylim=(rows - 0.5, -0.5), xticks=[], yticks=[])
+        axes.set_title(f"{len(self)} rocks, method {self.method}")
+        return axes
 
 
 def columns(

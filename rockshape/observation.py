@@ -13,6 +13,18 @@ from rockshape.rock.instances import Instances
 if TYPE_CHECKING:
     from rockshape.camera.resection import Resection
 
+GreyImage = NDArray[np.float32]
+"""Grey levels (rows, cols) from 0 to 1."""
+
+PointGrid = NDArray[np.float64]
+"""Points (rows, cols, 3) in metres, one a pixel; NaN where nothing was measured."""
+
+LabelImage = NDArray[np.int32]
+"""Rock ids (rows, cols), 0 the ground."""
+
+Outline = NDArray[np.float64]
+"""Closed outline (n, 2) as (x, y) in pixels, pixel centres at whole numbers."""
+
 SURE_RESIDUAL_PX = 0.5  # a camera at the origin that explains the grid this well is the one
 WORST_RESIDUAL_PX = 3.0  # a grid that no camera explains better than this is not one camera's
 
@@ -26,8 +38,8 @@ class Observation:
     Raises: InputError where the shapes do not fit each other.
     """
 
-    image: NDArray[np.float32]  # (rows, cols), grey from 0 to 1
-    points_m: NDArray[np.float64] | None = None  # (rows, cols, 3)
+    image: GreyImage  # (rows, cols), grey from 0 to 1
+    points_m: PointGrid | None = None  # (rows, cols, 3)
     camera: Camera | None = None
     resection: "Resection | None" = None
     colour: NDArray[np.generic] | None = None  # (rows, cols, channels), as given; None: grey alone

@@ -32,6 +32,13 @@ class Ellipse:
         """Minor over major axis, 0 to 1."""
         return self.minor / self.major
 
+    def ring(self, count: int = 128) -> NDArray[np.float64]:
+        """Points (count, 2) round the ellipse, closed."""
+        turns = np.linspace(0, 2 * np.pi, count, endpoint=False)
+        cosine, sine = np.cos(self.angle_rad), np.sin(self.angle_rad)
+        u, v = self.major * np.cos(turns), self.minor * np.sin(turns)
+        return np.column_stack([self.x + u * cosine - v * sine, self.y + u * sine + v * cosine])
+
     def radial_distance(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Signed distances (n,) of points (n, 2), outside positive, along the ray from the centre.
 

@@ -10,7 +10,8 @@ from rockshape.measures import (
     sphericity_2d,
     sphericity_3d,
 )
-from rockshape.measures.measure import Measure, Reading, Reason, Trait
+from rockshape.measures.measure import Measure, Trait
+from rockshape.measures.reading import Reading, Reason
 
 PAPER = (
     axis_ratio.PAPER,

@@ -31,7 +31,8 @@ Source: Fox et al. (2002), equations 6 and 7 and figure 3.
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.measures.measure import Measure, Reason
+from rockshape.measures.measure import Measure
+from rockshape.measures.reading import Reason
 from rockshape.rock.view import RockView
 
 ALPHA = 2

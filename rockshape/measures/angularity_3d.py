@@ -30,7 +30,8 @@ Source: Fox et al. (2002), equations 12 to 17.
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.measures.measure import Measure, Reason
+from rockshape.measures.measure import Measure
+from rockshape.measures.reading import Reason
 from rockshape.rock.view import RockView
 from rockshape.surface import MIN_POINTS, ResidualCurvature, Surface
 

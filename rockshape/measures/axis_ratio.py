@@ -26,7 +26,8 @@ and Kanazawa (2016).
 """
 
 from rockshape.ellipse.direct import MIN_POINTS, Ellipse
-from rockshape.measures.measure import Measure, Reason
+from rockshape.measures.measure import Measure
+from rockshape.measures.reading import Reason
 from rockshape.rock.view import RockView
 
 

@@ -31,7 +31,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.ellipse.direct import MIN_POINTS, Ellipse, fit_ellipse
-from rockshape.measures.measure import Measure, Reason
+from rockshape.measures.measure import Measure
+from rockshape.measures.reading import Reason
 from rockshape.rock.view import RockView
 
 

@@ -26,7 +26,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.ellipsoid import MIN_POINTS, Ellipsoid, EllipsoidFit
-from rockshape.measures.measure import Measure, Reason
+from rockshape.measures.measure import Measure
+from rockshape.measures.reading import Reason
 from rockshape.rock.view import RockView
 
 MAX_NOISE = 0.06  # of the mean half-axis, which is the whole range of the measure

@@ -2,46 +2,17 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from enum import StrEnum
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from rockshape.measures.reading import NAN, Reading, Reason
 from rockshape.rock.view import RockView
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Trait = Literal["angularity", "roundness", "form"]
-
-NAN = float("nan")
-
-
-class Reason(StrEnum):
-    """Reason why a rock has no value of a measure."""
-
-    NO_RANGE = "no range"
-    TOO_SMALL = "too small"
-    TRUNCATED = "truncated"
-    DEGENERATE = "degenerate"
-    NOT_RESOLVABLE = "not resolvable"
-
-
-@dataclass(frozen=True)
-class Reading:
-    """Value of a measure for one rock, or NaN and the reason.
-
-    `float(reading)` is the value. sd and interval are NaN where the uncertainty was not estimated.
-    """
-
-    value: float
-    unit: str = ""  # empty for a pure number
-    reason: Reason | None = None
-    sd: float = NAN  # standard deviation, in the value's unit
-    interval: tuple[float, float] = (NAN, NAN)  # of 95 % confidence, in the value's unit
-
-    def __float__(self) -> float:
-        return self.value
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,8 @@ with an outline of fewer than 40 px.
 Source: Wadell (1932), Volume, shape, and roundness of rock particles.
 """
 
-from rockshape.measures.measure import Measure, Reason
+from rockshape.measures.measure import Measure
+from rockshape.measures.reading import Reason
 from rockshape.outline.roundness import MIN_POINTS, wadell_roundness
 from rockshape.rock.view import RockView
 

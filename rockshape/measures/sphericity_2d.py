@@ -27,7 +27,8 @@ Source: Fox et al. (2002), section 3, Sphericity Test; Feret (1930).
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.measures.measure import Measure, Reason
+from rockshape.measures.measure import Measure
+from rockshape.measures.reading import Reason
 from rockshape.rock.view import RockView
 
 

@@ -75,11 +75,20 @@ def pixel_smooth(edge_px: NDArray[np.float64]) -> NDArray[np.float64]:
     return smooth_evenly(ring, sigma=PIXEL_SIGMA, count=count)
 
 
-def form_outline(edge_px: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The form of a pixel edge (n, 2) at (100, 2) points, the same at every size.
+def pixel_steps(outline_px: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A closed outline (n, 2) at (m, 2) points evenly about a pixel apart, without smoothing."""
+    ring = canonical(outline_px)
+    return even_outline(ring, max(FORM_POINTS, round(outline_length(ring))))
 
-    Smoothed by 1.2 % of its length, at least by 1 px, which the staircase asks for.
+
+def form_outline(
+    outline_px: NDArray[np.float64], *, least_sigma: float = PIXEL_SIGMA
+) -> NDArray[np.float64]:
+    """The form of a closed outline (n, 2) at (100, 2) points, the same at every size.
+
+    Smoothed by 1.2 % of its length, and at least by least_sigma (px), which is what the staircase
+    of a pixel edge asks for.
     """
-    ring = canonical(edge_px)
-    sigma = max(PIXEL_SIGMA, FORM_SIGMA * outline_length(ring))
+    ring = canonical(outline_px)
+    sigma = max(least_sigma, FORM_SIGMA * outline_length(ring))
     return smooth_evenly(ring, sigma=sigma, count=FORM_POINTS)

@@ -33,12 +33,7 @@ def overlay(image: NDArray[np.float32], measurement: Measurement) -> NDArray[np.
 def _draw_lines(canvas: NDArray[np.uint8], rock: Rock, scale: int, thick: int) -> None:
     """Outline and ellipse; a pixel's centre x lies at scale (x + 1/2) - 1/2 of the canvas."""
     if rock.ellipse is not None:
-        turns = np.linspace(0, 2 * np.pi, 128, endpoint=False)
-        cosine, sine = np.cos(rock.ellipse.angle_rad), np.sin(rock.ellipse.angle_rad)
-        u, v = rock.ellipse.major * np.cos(turns), rock.ellipse.minor * np.sin(turns)
-        ring = np.column_stack([u * cosine - v * sine, u * sine + v * cosine])
-        ring += (rock.ellipse.x, rock.ellipse.y)
-        _draw_ring(canvas, ring, ELLIPSE, scale, thick)
+        _draw_ring(canvas, rock.ellipse.ring(), ELLIPSE, scale, thick)
     _draw_ring(canvas, rock.outline_px, OUTLINE, scale, thick)
 
 

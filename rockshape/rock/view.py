@@ -15,7 +15,7 @@ from rockshape.ellipse.moments import moment_ellipse
 from rockshape.ellipsoid import Ellipsoid, EllipsoidFit, Resting, fit_ellipsoid, fit_held_ellipsoid
 from rockshape.outline.edge import edge_of
 from rockshape.outline.extent import feret_diameters
-from rockshape.outline.resample import form_outline, pixel_smooth
+from rockshape.outline.resample import PIXEL_SIGMA, form_outline, pixel_smooth, pixel_steps
 from rockshape.outline.trace import trace_outline
 from rockshape.rock.visibility import touches_border
 from rockshape.surface import ResidualCurvature, Surface, fit_surface, measure_relief, view_patch
@@ -40,6 +40,7 @@ class RockView:
     camera: Camera | None = None
     ground: "Ground | None" = None
     frame: tuple[slice, slice] | None = None  # rows and columns in which rocks can be seen
+    subpixel_px: NDArray[np.float64] | None = None  # (n, 2), its edge, closed, without a staircase
 
     @property
     def noise(self) -> "NoiseModel | None":
@@ -63,19 +64,30 @@ class RockView:
         return trace_outline(self.mask) + np.array(self.corner[::-1], dtype=np.float64)
 
     @cached_property
+    def has_subpixel_edge(self) -> bool:
+        """Whether the edge was found to sub-pixel; of a rock that the frame cuts it is not used."""
+        return self.subpixel_px is not None and not self.truncated
+
+    @cached_property
     def edge_px(self) -> NDArray[np.float64]:
-        """Middles of the pixel sides round the rock, (k, 2) as (x, y), half a pixel farther out."""
+        """Edge of the rock, (k, 2) as (x, y): as found to sub-pixel, or its pixels' outer sides."""
+        if self.subpixel_px is not None and self.has_subpixel_edge:
+            return self.subpixel_px
         return edge_of(self.outline_px)
 
     @cached_property
     def smooth_outline_px(self) -> NDArray[np.float64]:
-        """The edge without its staircase, (m, 2) evenly about a pixel apart."""
+        """The edge without a staircase, (m, 2) evenly about a pixel apart."""
+        if self.has_subpixel_edge:
+            return pixel_steps(self.edge_px)
         return pixel_smooth(self.edge_px)
 
     @cached_property
     def form_outline_px(self) -> NDArray[np.float64]:
         """The edge's form, the same at every size: (100, 2), evenly."""
-        return form_outline(self.edge_px)
+        return form_outline(
+            self.edge_px, least_sigma=0.0 if self.has_subpixel_edge else PIXEL_SIGMA
+        )
 
     @cached_property
     def resolved(self) -> bool:

@@ -3,12 +3,12 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from rockshape.outline.polygon_fill import Window, inside_of
 from rockshape.segmentation.by_image.ground_appearance import read_lightness
 from rockshape.segmentation.by_image.proposal_score import features_of, likelihood
 from rockshape.segmentation.by_image.proposal_seeds import MIN_PIXELS
 from rockshape.segmentation.by_image.star_proposals import propose
 from rockshape.segmentation.by_range.height_signal import HeightSignal
-from rockshape.segmentation.polygon_fill import Window, inside_of
 
 Labels = NDArray[np.int32]
 

@@ -13,8 +13,8 @@ import numpy as np
 import scipy.ndimage as ndi
 from numpy.typing import NDArray
 
+from rockshape.outline.polygon_fill import inside_of
 from rockshape.segmentation.edges.shortest_path import closed_paths
-from rockshape.segmentation.polygon_fill import inside_of
 
 Singles = NDArray[np.float32]
 Floats = NDArray[np.float64]

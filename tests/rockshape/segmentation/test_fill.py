@@ -1,7 +1,7 @@
 import numpy as np
 from skimage.measure import points_in_poly
 
-from rockshape.segmentation.polygon_fill import inside_of
+from rockshape.outline.polygon_fill import inside_of
 from rockshape.segmentation.relabel import in_reading_order, renumber
 
 

@@ -4,12 +4,12 @@ import cv2
 import numpy as np
 
 from rockshape.observation import Observation
+from rockshape.outline.polygon_fill import inside_of
 from rockshape.segmentation.by_image.ground_appearance import read_lightness
 from rockshape.segmentation.by_image.proposal_score import features_of, likelihood
 from rockshape.segmentation.by_image.proposal_seeds import find_seeds
 from rockshape.segmentation.by_image.star_proposals import Stars, propose
 from rockshape.segmentation.edges.edge_snapping import paint, snap
-from rockshape.segmentation.polygon_fill import inside_of
 from rockshape.segmentation.robust import segment_both
 from tests import solids
 

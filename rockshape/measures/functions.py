@@ -1,0 +1,183 @@
+"""Measures as functions of one rock: of its mask, its outline or its points.
+
+Measures of the outline take a mask (rows, cols), bool or 0 and another number, whose largest part
+is measured; or a closed outline (n, 2) as (x, y) in pixels. `method` picks the reading, `robust` or
+`paper`; the latter is one of pixels, so that an outline is drawn on the pixel grid first.
+
+Measures of the solid take points in the camera frame, metres: (n, 3), or (rows, cols, 3) with NaN
+off the rock. Their robust reading also uses the rays that graze the rock and what it rests on: it
+is NaN, with the reason, for points without grid, camera or ground. The camera of a grid is
+calibrated from its points where none is given.
+
+The result is a `Reading`: a float that tells its unit and, where it is NaN, the reason.
+"""
+
+from collections.abc import Mapping
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rockshape.camera.camera import Camera, PinholeLike, as_camera
+from rockshape.errors import InputError, unknown_name
+from rockshape.ground import Ground, Plane
+from rockshape.measures import angularity_2d as _angularity_2d
+from rockshape.measures import angularity_3d as _angularity_3d
+from rockshape.measures import axis_ratio as _axis_ratio
+from rockshape.measures import ellipse_error as _ellipse_error
+from rockshape.measures import ellipsoid_error as _ellipsoid_error
+from rockshape.measures import roundness as _roundness
+from rockshape.measures import sphericity_2d as _sphericity_2d
+from rockshape.measures import sphericity_3d as _sphericity_3d
+from rockshape.measures.measure import Measure
+from rockshape.measures.reading import NAN, Reading, Reason
+from rockshape.outline.polygon_fill import inside_of
+from rockshape.rock.instances import Instance, Instances
+from rockshape.rock.view import RockView
+
+SURE_RESIDUAL_PX = 0.5  # of a camera calibrated from the grid
+
+_Choice = TypeVar("_Choice")
+
+
+def axis_ratio(rock: ArrayLike, *, method: str = "robust") -> Reading:
+    """Axis ratio b/a of a mask or outline."""
+    return _flat(rock, method, {"robust": _axis_ratio.ROBUST, "paper": _axis_ratio.PAPER})
+
+
+def ellipse_error(rock: ArrayLike, *, method: str = "robust") -> Reading:
+    """Ellipse fitting error of a mask or outline; `paper` in px²."""
+    return _flat(rock, method, {"robust": _ellipse_error.ROBUST, "paper": _ellipse_error.PAPER})
+
+
+def sphericity_2d(rock: ArrayLike, *, method: str = "robust") -> Reading:
+    """2-D sphericity, the aspect ratio, of a mask or outline."""
+    return _flat(rock, method, {"robust": _sphericity_2d.ROBUST, "paper": _sphericity_2d.PAPER})
+
+
+def angularity_2d(rock: ArrayLike, *, method: str = "robust") -> Reading:
+    """2-D angularity of a mask or outline; `paper` in degrees."""
+    return _flat(rock, method, {"robust": _angularity_2d.ROBUST, "paper": _angularity_2d.PAPER})
+
+
+def roundness(rock: ArrayLike) -> Reading:
+    """Wadell roundness of a mask or outline."""
+    return _roundness.ROBUST.read(_flat_view(rock))
+
+
+def ellipsoid_error(
+    points_m: ArrayLike,
+    *,
+    method: str = "robust",
+    camera: PinholeLike | None = None,
+    ground: Ground | Plane | None = None,
+) -> Reading:
+    """Ellipsoid fitting error of points; `paper` in m²."""
+    if _choose({"robust": True, "paper": False}, method):
+        return _held(points_m, _ellipsoid_error.ROBUST, camera=camera, ground=ground)
+    return _ellipsoid_error.PAPER.read(_points_view(points_m))
+
+
+def sphericity_3d(
+    points_m: ArrayLike,
+    *,
+    method: str = "robust",
+    camera: PinholeLike | None = None,
+    ground: Ground | Plane | None = None,
+) -> Reading:
+    """Maximum projection sphericity of points."""
+    if _choose({"robust": True, "paper": False}, method):
+        return _held(points_m, _sphericity_3d.ROBUST, camera=camera, ground=ground)
+    return _sphericity_3d.PAPER.read(_points_view(points_m))
+
+
+def angularity_3d(
+    points_m: ArrayLike,
+    *,
+    method: str = "robust",
+    camera: PinholeLike | None = None,
+    ground: Ground | Plane | None = None,
+) -> Reading:
+    """3-D angularity of points; `paper` in 1/m."""
+    if _choose({"robust": True, "paper": False}, method):
+        return _held(points_m, _angularity_3d.ROBUST, camera=camera, ground=ground)
+    return _angularity_3d.PAPER.read(_points_view(points_m))
+
+
+def _flat(rock: ArrayLike, method: str, readings: Mapping[str, Measure]) -> Reading:
+    return _choose(readings, method).read(_flat_view(rock))
+
+
+def _choose(readings: Mapping[str, _Choice], method: str) -> _Choice:
+    if method not in readings:
+        raise unknown_name("method", method, readings)
+    return readings[method]
+
+
+def _flat_view(rock: ArrayLike) -> RockView:
+    """View of a mask or outline.
+
+    Raises: InputError for what is neither.
+    """
+    given = np.asarray(rock)
+    if given.dtype != np.bool_ and given.ndim == 2 and given.shape[1] == 2:
+        return _outline_view(given)
+    if given.ndim != 2 or given.dtype.kind not in "bui" or len(np.unique(given[given != 0])) > 1:
+        raise InputError(
+            "rock: expected a mask (rows, cols) of one rock or an outline (n, 2), "
+            f"found {given.shape} of {given.dtype}"
+        )
+    parts = Instances.from_labels((given != 0).astype(np.uint8)).largest_parts()
+    part = next(iter(parts), Instance(1, np.s_[0:0, 0:0], np.zeros((0, 0), dtype=bool)))
+    return RockView(mask=part.mask, corner=(part.window[0].start, part.window[1].start))
+
+
+def _outline_view(outline: NDArray[np.generic]) -> RockView:
+    points = outline.astype(np.float64)
+    if not np.isfinite(points).all():
+        raise InputError("rock: expected an outline of finite numbers, found some that are not")
+    if len(points) == 0:
+        return RockView(mask=np.zeros((0, 0), dtype=bool))
+    lowest = np.floor(points.min(axis=0))
+    x, y = (points - lowest).T
+    shape = int(np.ceil(y.max())) + 1, int(np.ceil(x.max())) + 1
+    window, mask = inside_of(x, y, shape)
+    corner = (window[0].start + int(lowest[1]), window[1].start + int(lowest[0]))
+    return RockView(mask=mask, corner=corner, subpixel_px=points)
+
+
+def _points_view(points_m: ArrayLike) -> RockView:
+    grid = np.asarray(points_m, dtype=np.float64)
+    if grid.ndim not in (2, 3) or grid.shape[-1] != 3:
+        raise InputError(f"points_m: expected (n, 3) or (rows, cols, 3), found {grid.shape}")
+    grid = grid[None] if grid.ndim == 2 else grid
+    return RockView(mask=np.asarray(np.isfinite(grid).all(axis=-1)), grid_m=grid)
+
+
+def _held(
+    points_m: ArrayLike,
+    measure: Measure,
+    *,
+    camera: PinholeLike | None,
+    ground: Ground | Plane | None,
+) -> Reading:
+    """Reading of the constrained ellipsoid, which needs the grid, the camera and the ground."""
+    view = _points_view(points_m)
+    grid = view.grid_m
+    if grid is None or np.ndim(points_m) == 2:
+        return Reading(NAN, measure.unit, Reason.NO_GRID)
+    seen = _calibrated(grid) if camera is None else as_camera(camera, shape=grid.shape)
+    if seen is None:
+        return Reading(NAN, measure.unit, Reason.NO_CAMERA)
+    if ground is None:
+        return Reading(NAN, measure.unit, Reason.NO_GROUND)
+    known = Ground(ground) if isinstance(ground, Plane) else ground
+    return measure.read(RockView(mask=view.mask, grid_m=grid, camera=seen, ground=known))
+
+
+def _calibrated(grid_m: NDArray[np.float64]) -> Camera | None:
+    """Camera at the origin that saw a grid of points; None where none explains it."""
+    from rockshape.camera.resection import calibrate  # noqa: PLC0415 - brings scipy.optimize
+
+    found = calibrate(grid_m)
+    return None if found is None or found.residual_px > SURE_RESIDUAL_PX else found.camera

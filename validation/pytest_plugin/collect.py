@@ -40,9 +40,9 @@ class SuiteFile(pytest.File):
 
     @classmethod
     def of(cls, parent: pytest.Collector, word: str, path: Path) -> "SuiteFile":
-        """Collector of a suite; one outside the root folder has its word as its node's id."""
-        inside = path.is_relative_to(parent.config.rootpath)
-        collector: SuiteFile = cls.from_parent(parent, path=path, nodeid=None if inside else word)
+        """Collector of a suite; outside the project the word itself is the id of its node."""
+        own = word.endswith(".toml") and path.is_relative_to(parent.config.rootpath)
+        collector: SuiteFile = cls.from_parent(parent, path=path, nodeid=None if own else word)
         collector.word = word
         return collector
 

@@ -17,7 +17,7 @@ from synth.render import backends
     [
         (["scene", "--camera", "foo"], ["--camera", "imp", "msl-navcam", "'foo'"]),
         (["scene", "--renderer", "foo"], ["--renderer", "osmesa", "'foo'"]),
-        (["scene", "--noise", "lidar"], ["--noise", "none", "stereo", "sgm", "'lidar'"]),
+        (["scene", "--noise", "radar"], ["--noise", "none", "stereo", "sgm", "'radar'"]),
         (["scene", "--camera", "msl-navcm"], ["did you mean 'msl-navcam'?"]),
         (["scene", "--rocks", "0"], ["--rocks", "found 0"]),
         (["scene", "--rocks", "501"], ["--rocks", "1 to 500", "found 501"]),

@@ -36,7 +36,7 @@ def test_values_are_read(tmp_path):
         ("[rocks]\ndiameter_m = [0.4, 0.2]", "diameter_m"),
         ("[rocks]\nc_over_b = [0.001, 0.5]", "rocks.c_over_b"),
         ('[rocks]\nfamily = "mixed"', "series"),
-        ('[noise]\nkind = "lidar"', "noise.kind"),
+        ('[noise]\nkind = "radar"', "noise.kind"),
         ('[camera]\npreset = "foo"', "camera.preset"),
         ("seed = ", "TOML"),
         ("seed = nan", "seed"),

@@ -11,7 +11,7 @@ from rockshape.measurement import Measurement, Rock
 from rockshape.measures import Reading
 from rockshape.method import Fits, Method, find_method
 from rockshape.observation import Observation, locate_camera
-from rockshape.outline.descriptors import describe_smooth
+from rockshape.outline.descriptors import Descriptors, describe_outline, describe_smooth
 from rockshape.rock.blas_threads import one_blas_thread
 from rockshape.rock.instances import Instance, Instances, Window
 from rockshape.rock.view import RockView
@@ -164,8 +164,14 @@ def _rock(
         ellipse=fits.ellipse,
         ellipsoid=fits.ellipsoid,
         readings=readings,
-        descriptors=describe_smooth(view.smooth_outline_px) if described else None,
+        descriptors=_describe(view) if described else None,
     )
+
+
+def _describe(view: RockView) -> Descriptors:
+    """Descriptors of the outline; only a pixel edge has a staircase that lengthens it."""
+    describe = describe_outline if view.has_subpixel_edge else describe_smooth
+    return describe(view.smooth_outline_px)
 
 
 def _view_rock(scene: _Scene, part: Instance) -> RockView:
@@ -178,4 +184,5 @@ def _view_rock(scene: _Scene, part: Instance) -> RockView:
         camera=scene.observation.camera,
         ground=scene.ground,
         frame=scene.frame,
+        subpixel_px=part.outline_px,
     )

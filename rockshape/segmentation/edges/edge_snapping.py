@@ -14,6 +14,8 @@ import scipy.ndimage as ndi
 from numpy.typing import NDArray
 
 from rockshape.outline.polygon_fill import inside_of
+from rockshape.outline.resample import outline_length, smooth_evenly
+from rockshape.outline.trace import signed_area
 from rockshape.segmentation.edges.shortest_path import closed_paths
 
 Singles = NDArray[np.float32]
@@ -22,7 +24,7 @@ Floats = NDArray[np.float64]
 REACH_PX = 6.0  # how far an edge may lie from the outline
 LANE_PX = 0.5
 BLUR_PX = 0.8  # of the image, before its edges are taken
-ROUND_PX = 3.0  # of the outline along itself, before its normals are taken
+ROUND_PX = 4.5  # of the outline along itself, before its normals are taken; does not shrink it
 STRONGEST = 12.0  # edges above this many of the texture's standard deviations are all alike
 BEND = 0.35  # cost of moving by a lane from one pixel of the outline to the next
 CLEAR = 2.5  # edges of this strength tell how far range is off
@@ -113,9 +115,10 @@ def _ring(
     contour = max(contours, key=len)[:, 0].astype(np.float64) - 1 + (left, top)
     if len(contour) < 12:
         return None
-    if _area(contour) < 0:
+    if signed_area(contour) < 0:
         contour = contour[::-1]
-    smooth = _even(_round(contour, ROUND_PX))
+    steps = max(8, round(outline_length(contour)))
+    smooth = smooth_evenly(contour, sigma=ROUND_PX, count=steps)
     ahead = np.roll(smooth, -1, axis=0) - np.roll(smooth, 1, axis=0)
     length = np.maximum(np.linalg.norm(ahead, axis=1, keepdims=True), 1e-9)
     normals = np.column_stack([ahead[:, 1], -ahead[:, 0]]) / length
@@ -134,24 +137,11 @@ def _ring(
     return _Ring(number, points, normals, edge.astype(np.float32), held)
 
 
-def _area(points: Floats) -> float:
-    x, y = points.T
-    return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
-
-
 def _round(points: Floats, sigma: float) -> Floats:
     """A closed outline smoothed along itself by a normal curve."""
     frequency = np.fft.fftfreq(len(points))
     passed = np.exp(-2 * (np.pi * sigma * frequency) ** 2)[:, None]
     return np.asarray(np.fft.ifft(np.fft.fft(points, axis=0) * passed, axis=0).real)
-
-
-def _even(points: Floats) -> Floats:
-    """A closed outline at places a pixel apart."""
-    closed = np.vstack([points, points[:1]])
-    along = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(closed, axis=0), axis=1))])
-    places = np.linspace(0, along[-1], max(8, round(along[-1])), endpoint=False)
-    return np.column_stack([np.interp(places, along, closed[:, axis]) for axis in (0, 1)])
 
 
 def _bleeding(

@@ -20,6 +20,7 @@ from .measures.reading import Reading as Reading
 from .measures.reading import Reason as Reason
 from .method import PAPER as PAPER
 from .method import ROBUST as ROBUST
+from .method import Fits as Fits
 from .method import Method as Method
 from .method import methods as methods
 from .method import register_method as register_method
@@ -31,5 +32,9 @@ from .observation import PointGrid as PointGrid
 from .report.overlay import overlay as overlay
 from .rock.instances import Instance as Instance
 from .rock.instances import Instances as Instances
+from .rock.view import RockView as RockView
+from .segmentation import FINDERS as FINDERS
+from .segmentation import FoundRock as FoundRock
+from .segmentation import Segmentation as Segmentation
 
 __version__: str

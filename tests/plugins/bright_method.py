@@ -2,9 +2,7 @@
 
 import numpy as np
 
-from rockshape import Instances, Measure, Method, Observation
-from rockshape.method import Fits
-from rockshape.segmentation import FoundRock, Segmentation
+from rockshape import Fits, FoundRock, Instances, Measure, Method, Observation, Segmentation
 
 
 def _segment(observation: Observation) -> Segmentation:

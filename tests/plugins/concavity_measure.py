@@ -2,9 +2,8 @@
 
 from typing import TYPE_CHECKING
 
-from rockshape import Measure, Reason
+from rockshape import Measure, Reason, RockView
 from rockshape.outline.descriptors import convexity, perimeter
-from rockshape.rock.view import RockView
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

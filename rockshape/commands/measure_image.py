@@ -5,15 +5,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from rockshape.api import observe
+from rockshape.api import read
 from rockshape.commands.summary import summarise
 from rockshape.errors import InputError
-from rockshape.io import read_camera, read_labels, read_pixels, read_range, write_image, write_table
+from rockshape.io import write_image, write_table
 from rockshape.io.files import check_writable, write_bytes
 from rockshape.io.registry import IMAGES, LABELS, TABLES
 from rockshape.measurement import Measurement, to_frame
 from rockshape.method import find_method
-from rockshape.observation import Observation
 from rockshape.pipeline import measure
 from rockshape.report.overlay import overlay
 
@@ -46,7 +45,9 @@ def measure_image(options: MeasureOptions) -> None:
     """
     method = find_method(options.method)
     _check_outputs(options)
-    observation = _observe(options)
+    observation = read(
+        options.image, range=options.range, camera=options.camera, labels=options.labels
+    )
     encoded = None
     if options.labels_out is not None and observation.instances is not None:
         encoded = LABELS.encode(options.labels_out, observation.instances)
@@ -80,18 +81,6 @@ def _check_outputs(options: MeasureOptions) -> None:
 def _outputs(options: MeasureOptions) -> Iterator[Path]:
     paths = (options.out, options.labels_out, options.overlay, options.report)
     return (path for path in paths if path is not None)
-
-
-def _observe(options: MeasureOptions) -> Observation:
-    pixels = read_pixels(options.image)
-    shape, name = pixels.shape, options.image.name
-    camera = None if options.camera is None else read_camera(options.camera, shape=shape)
-    points_m, instances = None, None
-    if options.range is not None:
-        points_m = read_range(options.range, shape=shape, camera=camera)
-    if options.labels is not None:
-        instances = read_labels(options.labels, shape=shape, image_name=name)
-    return observe(pixels, range_m=points_m, camera=camera, labels=instances)
 
 
 def _write(options: MeasureOptions, measurement: Measurement, encoded: bytes | None) -> None:

@@ -1,12 +1,15 @@
 """Where units run: processes of this machine, or a Dask cluster. Both are executors."""
 
 import os
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from multiprocessing import get_context, parent_process
+from multiprocessing import parent_process
+from multiprocessing.context import SpawnContext, SpawnProcess
+from types import ModuleType
 from typing import Any
 
 from validation.errors import InputError, MissingPackageError, WorkerError
@@ -14,6 +17,7 @@ from validation.errors import InputError, MissingPackageError, WorkerError
 TRIES = 3  # of a unit whose worker dies; a Dask scheduler has the same by default
 CONNECT_S = 10
 BLAS_THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
+_STARTING = threading.Lock()  # one process at a time hides the main module
 
 
 def default_jobs() -> int:
@@ -33,6 +37,29 @@ def _die_with_parent() -> None:
             os._exit(1)
 
     threading.Thread(target=watch, daemon=True).start()
+
+
+class _WorkerProcess(SpawnProcess):
+    """Process that imports our modules alone, and not the script or notebook that began it.
+
+    A script without `if __name__ == "__main__"` would otherwise begin itself again in each process.
+    """
+
+    @staticmethod
+    def _Popen(process_obj: Any) -> Any:  # noqa: N802 - multiprocessing's name
+        with _STARTING:
+            script = sys.modules["__main__"]
+            sys.modules["__main__"] = ModuleType("__main__")
+            try:
+                return SpawnProcess._Popen(process_obj)
+            finally:
+                sys.modules["__main__"] = script
+
+
+class _WorkerContext(SpawnContext):
+    """Context of fresh processes that do not import the main module."""
+
+    Process = _WorkerProcess
 
 
 class LocalExecutor(Executor):
@@ -56,7 +83,7 @@ class LocalExecutor(Executor):
         for _ in range(TRIES):
             pool = getattr(self._own, "pool", None)
             if pool is None:
-                pool = ProcessPoolExecutor(1, get_context("spawn"), initializer=_die_with_parent)
+                pool = ProcessPoolExecutor(1, _WorkerContext(), initializer=_die_with_parent)
                 self._own.pool = pool
                 self._pools.append(pool)
             try:

@@ -1,0 +1,113 @@
+"""Front door for scripts and notebooks: score a view, run a suite, compare two runs."""
+
+import os
+import shlex
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import msgspec
+import pandas as pd
+
+from rockshape.measurement import Measurement
+from rockshape.method import find_method
+from validation.errors import InputError
+from validation.execution.compare import MARGIN
+from validation.execution.compare import compare as compare_runs
+from validation.execution.executors import default_jobs, local
+from validation.execution.recorded import check_paired, load_recorded
+from validation.execution.run import prepare, run_suite
+from validation.execution.store import FOLDER, UnitStore
+from validation.execution.suite_result import SuiteResult, suite_result
+from validation.peers.parse import settle
+from validation.records.view_score import TrueView, ViewScore, score_view
+from validation.report import check_target, write_run
+from validation.scores.scoring import score_names
+from validation.suite.gates import check_names, gates_on
+from validation.suite.suite import Suite, load_suite, with_methods
+
+
+def score(found: Measurement, view: TrueView, *, min_iou: float = 0.5) -> ViewScore:
+    """Score of one measurement against the truth of its view.
+
+    - found: what `rockshape.measure` returned.
+    - view: what has a label image `labels` (rows, cols) and a table `truth` with the column `id`,
+      a view of `synth` for instance.
+    - min_iou: the overlap, intersection over union, from which a found rock is a true one.
+
+    Raises:
+        InputError: the images' sizes differ, or the truth has no column `id`.
+    """
+    if not 0 < min_iou <= 1:
+        raise InputError(f"min_iou: expected a share above 0, up to 1, found {min_iou}")
+    return score_view(found, view, min_iou=min_iou)
+
+
+def run(
+    suite: str | os.PathLike[str] | Suite = "ci",
+    *,
+    jobs: int | None = None,
+    out: str | os.PathLike[str] | None = None,
+    methods: Sequence[str] | None = None,
+    resume: bool = False,
+) -> SuiteResult:
+    """Run of a suite: its scenes made, measured, scored and held to its gates.
+
+    - suite: the name of a suite, a TOML file or a record.
+    - jobs: processes; as many as there are processors if None.
+    - out: folder of the report; no report is written if None.
+    - methods: measure by these methods alone, and hold the gates on them.
+    - resume: keep what an earlier run in `out` has measured with this very code.
+
+    Raises:
+        InputError: a suite, a method, a number of jobs or a folder that cannot be used.
+        MissingBackendError: the machine lacks a renderer that the suite names.
+    """
+    whole = suite if isinstance(suite, Suite) else load_suite(os.fspath(suite))
+    specs = tuple(settle(spec, {}) for spec in whole.measures)
+    whole = msgspec.structs.replace(whole, measures=specs)
+    chosen = whole if methods is None else with_methods(whole, _names(methods))
+    check_names(whole.gates, score_names(whole) | score_names(chosen), where=f"suite {whole.name}")
+    folder = None if out is None else Path(out)
+    if folder is not None:
+        check_target(folder)
+    ready = prepare(chosen)
+    start = time.monotonic()
+    with TemporaryDirectory(prefix="rockshape-") as scratch:
+        with local(default_jobs() if jobs is None else jobs) as executor:
+            outcome = run_suite(
+                ready,
+                gates=gates_on(whole.gates, score_names(chosen)),
+                executor=executor,
+                store=UnitStore((folder or Path(scratch)) / FOLDER, keep=resume),
+                on_done=lambda _: None,
+            )
+        if folder is not None:
+            command = shlex.join(["rockshape", "validate", "run", "--suite", whole.name])
+            write_run(outcome, folder, command=command, seconds=time.monotonic() - start)
+        return suite_result(outcome, folder)
+
+
+def compare(
+    old: str | os.PathLike[str], new: str | os.PathLike[str], *, margin: float = MARGIN
+) -> pd.DataFrame:
+    """Comparison of the runs in two folders, one row a score, paired rock by rock.
+
+    `verdict` is better, worse, moved, same, new or gone; low and high are the 95 % interval of the
+    difference. Differences up to `margin` are no news.
+
+    Raises:
+        InputError: a folder holds no run, or the runs do not show the same rocks.
+    """
+    before, after = load_recorded(Path(old)), load_recorded(Path(new))
+    check_paired(before, after)
+    changes = compare_runs(before, after, margin=margin)
+    columns = ["name", "title", "unit", "old", "new", "low", "high", "verdict"]
+    return pd.DataFrame([[getattr(c, name) for name in columns] for c in changes], columns=columns)
+
+
+def _names(methods: Sequence[str]) -> tuple[str, ...]:
+    if isinstance(methods, str):
+        raise InputError(f"methods: expected a list of names, found {methods!r}")
+    return tuple(dict.fromkeys(find_method(method).name for method in methods))

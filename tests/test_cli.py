@@ -23,7 +23,7 @@ def _commands(parser: argparse.ArgumentParser, before: tuple[str, ...] = ()) -> 
 
 
 COMMANDS = list(_commands(build_parser()))
-LIGHT = [words for words in COMMANDS if words and words[0] != "validate"]
+LIGHT = [words for words in COMMANDS if words]
 
 
 def _python(*arguments: str) -> tuple[str, set[str]]:

@@ -7,8 +7,8 @@ from .errors import WorkerError as WorkerError
 from .execution.suite_result import SuiteResult as SuiteResult
 from .records.view_score import ViewScore as ViewScore
 from .suite.gates import Gate as Gate
+from .suite.shipped import suite_names as suite_names
 from .suite.suite import Suite as Suite
 from .suite.suite import load_suite as load_suite
-from .suite.suite import suite_names as suite_names
 
 __version__: str

@@ -11,7 +11,7 @@ import msgspec
 import pandas as pd
 
 from rockshape.measurement import Measurement
-from rockshape.method import find_method
+from rockshape.method import Method
 from validation.errors import InputError
 from validation.execution.compare import MARGIN
 from validation.execution.compare import compare as compare_runs
@@ -25,7 +25,8 @@ from validation.records.view_score import TrueView, ViewScore, score_view
 from validation.report import check_target, write_run
 from validation.scores.scoring import score_names
 from validation.suite.gates import check_names, gates_on
-from validation.suite.suite import Suite, load_suite, with_methods
+from validation.suite.methods import with_methods
+from validation.suite.suite import Suite, load_suite
 
 
 def score(found: Measurement, view: TrueView, *, min_iou: float = 0.5) -> ViewScore:
@@ -49,7 +50,7 @@ def run(
     *,
     jobs: int | None = None,
     out: str | os.PathLike[str] | None = None,
-    methods: Sequence[str] | None = None,
+    methods: Sequence[str | Method] | None = None,
     resume: bool = False,
 ) -> SuiteResult:
     """Run of a suite: its scenes made, measured, scored and held to its gates.
@@ -57,7 +58,8 @@ def run(
     - suite: the name of a suite, a TOML file or a record.
     - jobs: processes; as many as there are processors if None.
     - out: folder of the report; no report is written if None.
-    - methods: measure by these methods alone, and hold the gates on them.
+    - methods: measure by these methods alone, and hold the gates on them; names, or Method records
+      of a module that worker processes can import.
     - resume: keep what an earlier run in `out` has measured with this very code.
 
     Raises:
@@ -67,7 +69,9 @@ def run(
     whole = suite if isinstance(suite, Suite) else load_suite(os.fspath(suite))
     specs = tuple(settle(spec, {}) for spec in whole.measures)
     whole = msgspec.structs.replace(whole, measures=specs)
-    chosen = whole if methods is None else with_methods(whole, _names(methods))
+    if isinstance(methods, str):
+        raise InputError(f"methods: expected a list of names, found {methods!r}")
+    chosen = whole if methods is None else with_methods(whole, methods)
     check_names(whole.gates, score_names(whole) | score_names(chosen), where=f"suite {whole.name}")
     folder = None if out is None else Path(out)
     if folder is not None:
@@ -105,9 +109,3 @@ def compare(
     changes = compare_runs(before, after, margin=margin)
     columns = ["name", "title", "unit", "old", "new", "low", "high", "verdict"]
     return pd.DataFrame([[getattr(c, name) for name in columns] for c in changes], columns=columns)
-
-
-def _names(methods: Sequence[str]) -> tuple[str, ...]:
-    if isinstance(methods, str):
-        raise InputError(f"methods: expected a list of names, found {methods!r}")
-    return tuple(dict.fromkeys(find_method(method).name for method in methods))

@@ -1,7 +1,9 @@
 """The front door of validation: one view scored, a suite run, two runs compared."""
 
+import importlib
 import subprocess
 import sys
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -10,6 +12,7 @@ import pytest
 
 import rockshape
 import validation
+from rockshape.method import registered
 
 SUITE = """
 name = "drawings"
@@ -121,6 +124,36 @@ def test_a_run_has_tables_a_report_and_a_comparison(suite, tmp_path) -> None:
     changes = validation.compare(tmp_path / "out", tmp_path / "out")
     assert len(changes) == len(done.scores)
     assert set(changes["verdict"]) == {"same"}
+
+
+OWN = """
+from dataclasses import replace
+from rockshape.method import ROBUST
+
+MINE = replace(ROBUST, name="mine", measures=ROBUST.measures[:1])
+"""
+
+
+def test_an_own_method_of_a_module_is_measured_in_workers(suite, tmp_path, monkeypatch) -> None:
+    (tmp_path / "own_method.py").write_text(OWN)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(tmp_path)
+    record = importlib.import_module("own_method").MINE
+    with registered(record):
+        for number, method in enumerate((record, "own_method:MINE")):
+            out = tmp_path / f"out{number}"
+            done = validation.run(suite, jobs=1, methods=["robust", method], out=out)
+            assert set(done.records["method"]) == {"robust", "mine"}
+            by_method = done.records.groupby("method")["axis_ratio"]
+            assert by_method.get_group("mine").tolist() == by_method.get_group("robust").tolist()
+            assert "shapes.mine.sphericity.axis_ratio.tau" in done.scores["name"].tolist()
+        assert set(validation.compare(tmp_path / "out0", tmp_path / "out1")["verdict"]) == {"same"}
+
+
+def test_a_method_that_no_module_defines_is_refused(suite) -> None:
+    nameless = replace(rockshape.ROBUST, name="nameless")
+    with pytest.raises(validation.InputError, match="that a module other than the main script"):
+        validation.run(suite, methods=[nameless])
 
 
 def test_an_unknown_method_and_a_name_alone_are_refused(suite) -> None:

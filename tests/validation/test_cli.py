@@ -139,7 +139,7 @@ def test_bad_arguments_are_one_line_and_status_2(tmp_path, suite_path, capsys) -
 
 
 def test_odd_folders_are_refused_before_any_work(tmp_path, suite_path, capsys, monkeypatch) -> None:
-    monkeypatch.setattr("validation.cli.run_suite", None)
+    monkeypatch.setattr("validation.commands.run.run_suite", None)
     suite = ["--suite", str(suite_path), "--out"]
     nowhere, file = tmp_path / "nowhere", tmp_path / "file"
     nowhere.symlink_to(tmp_path / "absent")

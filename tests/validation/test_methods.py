@@ -12,7 +12,8 @@ from validation.kinds.multiview.spec import MultiviewExperiment
 from validation.kinds.shapes.spec import ShapesExperiment
 from validation.scores.scoring import claims_of, definitions, score_names, score_values
 from validation.suite.gates import Gate, gates_on
-from validation.suite.suite import Suite, load_suite, with_methods
+from validation.suite.methods import with_methods
+from validation.suite.suite import Suite, load_suite
 
 GATE = Gate(score="s.sphericity.axis_ratio.tau", at_least=0.0, reason="r")
 

@@ -7,7 +7,8 @@ import pytest
 from validation.errors import InputError
 from validation.scores.scoring import definitions
 from validation.suite.gates import check_names
-from validation.suite.suite import load_gates, load_suite, suite_names
+from validation.suite.shipped import suite_names
+from validation.suite.suite import load_gates, load_suite
 
 CI = (files("validation") / "suites" / "ci.toml").read_text(encoding="utf-8")
 

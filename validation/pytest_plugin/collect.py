@@ -11,7 +11,8 @@ from validation.errors import InputError
 from validation.pytest_plugin.gate_outcome import GateError, SuiteError, gate_name
 from validation.pytest_plugin.suite_run import outcome_of, read_suite
 from validation.suite.gates import Gate
-from validation.suite.suite import Suite, suite_names
+from validation.suite.shipped import suite_names
+from validation.suite.suite import Suite
 
 _REACHED = pytest.StashKey[set[Path]]()
 

@@ -27,11 +27,23 @@ def load_plugin(plugin: str) -> ModuleType:
             f"plug-in {plugin}: expected a module that can be imported, found: {error}"
         ) from error
     if name:
-        record = getattr(module, name, None)
-        if not isinstance(record, Method):
-            raise InputError(
-                f"plug-in {plugin}: expected a Method named {name} in {module_name}, "
-                f"found {type(record).__name__}"
-            )
-        register_method(record)
+        register_method(_method_in(module, name))
     return module
+
+
+def load_method(reference: str) -> Method:
+    """Import and register the Method at `package.module:NAME`.
+
+    Raises:
+        InputError: no such module or record.
+    """
+    return _method_in(load_plugin(reference), reference.partition(":")[2])
+
+
+def _method_in(module: ModuleType, name: str) -> Method:
+    record = getattr(module, name, None)
+    if not isinstance(record, Method):
+        raise InputError(
+            f"{module.__name__}:{name}: expected a Method, found {type(record).__name__}"
+        )
+    return record

@@ -6,7 +6,6 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Annotated, Any
 
-import msgspec
 from msgspec import Meta, Struct, field
 
 from validation.errors import InputError
@@ -16,6 +15,7 @@ from validation.suite.experiment import Experiment
 from validation.suite.gates import Gate, GateFile
 from validation.suite.inherit import resolve_likes
 from validation.suite.plugins import load_plugin
+from validation.suite.shipped import suite_names
 
 
 class Suite(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -77,12 +77,6 @@ def as_suite(table: Mapping[str, Any], *, where: str) -> Suite:
         raise InputError(f"{where}: {error}") from error
 
 
-def with_methods(suite: Suite, methods: tuple[str, ...]) -> Suite:
-    """Return the suite with every experiment that measures measured by these methods."""
-    experiments = tuple(each.measured_by(methods) for each in suite.experiments)
-    return msgspec.structs.replace(suite, experiments=experiments)
-
-
 def _parse(text: str, *, where: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
@@ -97,12 +91,6 @@ def _read(path: Path) -> str:
         raise InputError(f"{path}: expected a TOML file, found {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise InputError(f"{path}: expected a TOML file, found bytes that are no text") from error
-
-
-def suite_names() -> tuple[str, ...]:
-    """Return the names of the suites that come with the package."""
-    names = [file.name for file in (files("validation") / "suites").iterdir()]
-    return tuple(sorted(name.removesuffix(".toml") for name in names if name.endswith(".toml")))
 
 
 def load_suite(name_or_path: str) -> Suite:

@@ -1,0 +1,1 @@
+"""Actions of `rockshape validate`, imported when one is asked for."""

@@ -1,0 +1,35 @@
+"""Progress of a run: a bar on a terminal, one plain line a unit elsewhere."""
+
+import sys
+from typing import NoReturn
+
+from tqdm import tqdm
+
+from validation.execution.units import AnyUnit, describe
+
+
+class Progress:
+    """Progress on standard error."""
+
+    def __init__(self, total: int, done: int) -> None:
+        """Begin with so many units done of a total."""
+        self._bar: tqdm[NoReturn] = tqdm(
+            total=total, initial=done, unit="unit", disable=None, file=sys.stderr
+        )
+        self._total = total
+        self._done = done
+        if done and self._bar.disable:
+            print(f"{done} of {total} units are there already", file=sys.stderr, flush=True)
+
+    def advance(self, unit: AnyUnit) -> None:
+        """Count one unit as done."""
+        self._done += 1
+        if self._bar.disable:
+            print(f"[{self._done}/{self._total}] {describe(unit)}", file=sys.stderr, flush=True)
+            return
+        self._bar.set_description(describe(unit))
+        self._bar.update()
+
+    def close(self) -> None:
+        """Leave the terminal tidy."""
+        self._bar.close()

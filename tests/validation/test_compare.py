@@ -122,6 +122,28 @@ def test_a_level_moves_and_is_neither_better_nor_worse(old, good, folder_of) -> 
     assert found["yard.angularity_2d_deg.tau"] == "same"
 
 
+def test_a_run_from_when_multiview_was_called_yard_is_read(old, tmp_path) -> None:
+    document = json.loads((old / "scores.json").read_text(encoding="utf-8"))
+    for experiment in document["spec"]["experiment"]:
+        experiment["kind"] = {"multiview": "yard"}.get(experiment["kind"], experiment["kind"])
+    del document["spec"]["plugins"]
+    (tmp_path / "scores.json").write_text(json.dumps(document), encoding="utf-8")
+    records = pd.read_parquet(old / "results.parquet")
+    records = records.assign(kind=records["kind"].replace("multiview", "yard"))
+    records.to_parquet(tmp_path / "results.parquet", index=False)
+    before, after = load_recorded(tmp_path), load_recorded(old)
+    assert before.suite == after.suite
+    assert set(before.records["kind"]) == {"multiview", "shapes"}
+    assert set(verdicts(tmp_path, old).values()) == {"same"}
+
+
+def test_the_baseline_can_be_read() -> None:
+    baseline = load_recorded(Path(__file__).parents[2] / "reports" / "baseline")
+    assert baseline.suite.name == "ci"
+    assert set(baseline.records["kind"]) == {"multiview", "shapes"}
+    assert all(baseline.gates.values())
+
+
 def refused(old, new, capsys, *more) -> str:
     assert main(["validate", "compare", str(old), str(new), *more]) == 2
     error = capsys.readouterr().err

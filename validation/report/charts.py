@@ -10,7 +10,7 @@ import numpy as np
 from markupsafe import Markup, escape
 from numpy.typing import NDArray
 
-from validation.report.svg_axes import Axis, axis_of, tick_text
+from validation.report.svg_axes import Axis, axis_of, grid_rows, tick_text
 
 WIDTH, HEIGHT = 340.0, 250.0
 LEFT, RIGHT, TOP, BOTTOM = 62.0, 12.0, 14.0, 40.0
@@ -99,11 +99,7 @@ def scatter(
 
 
 def _grid(across: Axis, up: Axis) -> str:
-    parts = []
-    for tick in up.ticks():
-        y = up.place(tick)
-        parts.append(f'<path class="grid" d="M{LEFT} {y:.1f}H{WIDTH - RIGHT}"/>')
-        parts.append(f'<text x="{LEFT - 6}" y="{y + 4:.1f}" class="end">{tick_text(tick)}</text>')
+    parts = [grid_rows(up, LEFT, WIDTH - RIGHT)]
     for tick in across.ticks():
         x = across.place(tick)
         parts.append(f'<path class="grid" d="M{x:.1f} {TOP}V{HEIGHT - BOTTOM}"/>')

@@ -7,6 +7,7 @@ import numpy as np
 from markupsafe import Markup, escape
 
 from validation.report.format import interval, number
+from validation.report.svg_axes import Axis, grid_rows
 
 WIDTH, HEIGHT = 300.0, 190.0
 LEFT, RIGHT, TOP, BOTTOM = 40.0, 10.0, 12.0, 38.0
@@ -25,31 +26,12 @@ class Line:
     highs: tuple[float, ...]
 
 
-@dataclass(frozen=True)
-class _Height:
-    """The vertical axis: all values and intervals, and 0 to `most` at least."""
-
-    low: float
-    high: float
-
-    @classmethod
-    def of(cls, lines: Sequence[Line], most: float) -> "_Height":
-        shown = np.array([v for line in lines for v in (*line.values, *line.lows, *line.highs)])
-        shown = shown[np.isfinite(shown)]
-        return cls(float(min([0.0, *shown])), float(max([most, *shown])))
-
-    def place(self, value: float) -> float:
-        """Return the picture's y."""
-        share = (value - self.low) / (self.high - self.low)
-        return HEIGHT - BOTTOM - (HEIGHT - TOP - BOTTOM) * share
-
-    def ticks(self) -> list[float]:
-        """Return round values inside the axis."""
-        reach = self.high - self.low
-        step = next(s for s in (0.05, 0.1, 0.25, 0.5, 1.0, np.inf) if reach / s <= 6)
-        step = step if np.isfinite(step) else float(np.ceil(reach / 4))
-        first = np.ceil(self.low / step)
-        return [float(step * i) for i in np.arange(first, self.high / step + 1e-9)]
+def _height(lines: Sequence[Line], most: float) -> Axis:
+    """Return the vertical axis: all values and intervals, and 0 to `most` at least."""
+    shown = np.array([v for line in lines for v in (*line.values, *line.lows, *line.highs)])
+    shown = shown[np.isfinite(shown)]
+    low, high = float(min([0.0, *shown])), float(max([most, *shown]))
+    return Axis(low, high, log=False, start=HEIGHT - BOTTOM, end=TOP)
 
 
 def line_chart(
@@ -59,17 +41,13 @@ def line_chart(
 
     The vertical axis reaches from 0 to `most` at least.
     """
-    height = _Height.of(lines, most)
+    height = _height(lines, most)
     across = np.linspace(LEFT + _INSET, WIDTH - RIGHT - _INSET, len(steps))
     parts = [
         f'<svg class="chart" viewBox="0 0 {WIDTH:.0f} {HEIGHT:.0f}" role="img" '
         f'aria-label="{escape(title)} over {escape(x_title)}">'
     ]
-    for tick in height.ticks():
-        y = height.place(tick)
-        parts.append(f'<path class="grid" d="M{LEFT} {y:.1f}H{WIDTH - RIGHT}"/>')
-        shown = f"{tick:g}".replace("-", "−")
-        parts.append(f'<text x="{LEFT - 5}" y="{y + 4:.1f}" class="end">{shown}</text>')
+    parts.append(grid_rows(height, LEFT, WIDTH - RIGHT))
     parts += [
         f'<text x="{x:.1f}" y="{HEIGHT - BOTTOM + 15}" class="mid">{escape(step)}</text>'
         for x, step in zip(across, steps, strict=True)
@@ -83,7 +61,7 @@ def line_chart(
 
 
 def _drawn(
-    line: Line, height: _Height, across: Sequence[float], steps: Sequence[str]
+    line: Line, height: Axis, across: Sequence[float], steps: Sequence[str]
 ) -> Iterator[str]:
     """Yield a line's path, then its bars and marks; a step without a value breaks the path."""
     path, pen = "", "M"

@@ -59,6 +59,15 @@ def axis_of(
     return Axis(low - pad, high + pad, False, start, end)
 
 
+def grid_rows(up: Axis, left: float, right: float) -> str:
+    """Return the horizontal lines of a vertical axis, each with its value at the left."""
+    return "".join(
+        f'<path class="grid" d="M{left} {up.place(tick):.1f}H{right}"/>'
+        f'<text x="{left - 6}" y="{up.place(tick) + 4:.1f}" class="end">{tick_text(tick)}</text>'
+        for tick in up.ticks()
+    )
+
+
 def tick_text(value: float) -> str:
     """Return a mark's number, at most seven characters wide."""
     if value == 0 or 1e-3 <= abs(value) < 1e4:

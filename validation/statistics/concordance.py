@@ -9,14 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
+from validation.arrays import Floats
 from validation.statistics.block import Block
 
 MAX_ARRANGEMENTS = 100_000
 PERMUTATIONS = 1999
 _PERMUTATION_SEED = 1939
 _ROUNDING = 1e-9  # of sums of squared half ranks
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

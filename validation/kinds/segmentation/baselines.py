@@ -10,12 +10,11 @@ from skimage.segmentation import watershed
 
 from rockshape.ground import fit_plane
 from rockshape.observation import Observation
+from validation.arrays import Labels
 
 HEIGHT_M = 0.03
 MIN_PIXELS = 40
 PEAK_DISTANCE_PX = 7
-
-Labels = NDArray[np.int32]
 
 
 def fixed_height(observation: Observation) -> Labels:

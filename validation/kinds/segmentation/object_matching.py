@@ -9,10 +9,8 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 from skimage.measure import find_contours
 
+from validation.arrays import Floats, Labels
 from validation.errors import InputError
-
-Labels = NDArray[np.int32]
-Floats = NDArray[np.float64]
 
 SPLIT_SHARE = 0.2  # of a true rock in each of two found ones: split
 MERGED_SHARE = 0.5  # of each of two true rocks in one found: merged

@@ -6,10 +6,9 @@ import numpy as np
 import scipy.ndimage as ndi
 from numpy.typing import NDArray
 
+from validation.arrays import Floats
 from validation.execution.views import SceneView
 from validation.kinds.segmentation.spec import SegmentationExperiment
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

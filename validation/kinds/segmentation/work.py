@@ -13,6 +13,7 @@ from rockshape.method import find_method
 from rockshape.observation import Observation
 from rockshape.segmentation import Segmentation
 from synth.camera.camera import PRESETS
+from validation.arrays import Floats, Labels
 from validation.execution.units import Unit, UnitResult
 from validation.execution.views import dataset_views
 from validation.kinds.segmentation.baselines import fixed_height, otsu, plain_watershed
@@ -21,9 +22,6 @@ from validation.kinds.segmentation.spec import SegmentationExperiment
 from validation.kinds.segmentation.truth import ViewTruth, range_counts, view_truth
 from validation.records.join import RecordKey
 from validation.records.pictures import Picture, compress
-
-Labels = NDArray[np.int32]
-Floats = NDArray[np.float64]
 
 MAX_BASELINE_M = 0.424
 TRUE_COLOUR, FOUND_COLOUR = (64, 180, 255), (255, 209, 56)  # RGB

@@ -4,10 +4,10 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from rockshape.measures.measure import Measure
 from rockshape.method import find_method
+from validation.arrays import Floats
 from validation.kinds.design.judge.outlines import explained_share, moments_of
 from validation.kinds.design.judge.shared_variance import movements
 from validation.kinds.design.judge.tensors import Cubes, cubes_of
@@ -26,7 +26,6 @@ from validation.statistics import (
     within_views,
 )
 
-Floats = NDArray[np.float64]
 Compute = Callable[[Cubes], Estimate]
 
 TITLES = {

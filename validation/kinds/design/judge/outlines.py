@@ -3,9 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from validation.arrays import Floats
 from validation.kinds.design.judge.variance_components import MIN_VIEWS, whole_views
-
-Floats = NDArray[np.float64]
 
 
 def _deviations(clean: Floats, outlines: Floats, whole: NDArray[np.bool_]) -> Floats | None:

@@ -6,9 +6,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from validation.arrays import Floats
 from validation.kinds.design.spec import CLEAN, FOUND, NOISY, DesignExperiment
-
-Floats = NDArray[np.float64]
 
 TRUTHS = ("truth_outline_axis_ratio", "truth_outline_roundness")
 

@@ -5,9 +5,8 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
+from validation.arrays import Floats
 from validation.errors import InputError
-
-Floats = NDArray[np.float64]
 
 MIN_VIEWS = 2
 

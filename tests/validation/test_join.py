@@ -51,7 +51,9 @@ def test_every_rock_has_one_row() -> None:
 
 def test_an_empty_measurement_misses_all() -> None:
     measurement = measure(
-        Observation(image=np.zeros((80, 160), np.float32)), labels=np.zeros((80, 160), np.int32)
+        Observation(image=np.zeros((80, 160), np.float32)),
+        labels=np.zeros((80, 160), np.int32),
+        method="paper",
     )
     truth = pd.DataFrame({"instance": [0], "eligible": True})
     rows = join(

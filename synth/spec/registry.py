@@ -39,7 +39,7 @@ class Registry(Generic[R]):
     def __init__(self, what: str, *, group: str, own: Mapping[str, str]) -> None:
         """Take what a record is called, the entry points' group, and name → module:attribute."""
         self.what, self._group = what, group
-        self.own = frozenset(own)
+        self.own = tuple(own)
         self._own = {name: EntryPoint(name, value, group) for name, value in own.items()}
         self._loaded: dict[str, R] = {}
         self._registered: dict[str, R] = {}

@@ -12,7 +12,7 @@ _public, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
 
 
 def __getattr__(name: str) -> object:
-    """Return a public name; the version is the distribution's."""
+    """Public name; the version is the distribution's."""
     if name == "__version__":
         from importlib.metadata import version  # noqa: PLC0415 - it takes as long as all else
 

@@ -35,7 +35,7 @@ def _command(args: argparse.Namespace, jobs: int) -> str:
 
 
 def _with_measures(suite: Suite, args: argparse.Namespace) -> Suite:
-    """Return the suite with the measures of the command line, each tried once."""
+    """Suite with the measures of the command line, each tried once."""
     asked = parse_traits(args.expected_trait)
     specs = [settle(spec, {}) for spec in suite.measures]
     specs += [settle(parse_measure(text), asked) for text in args.measure]

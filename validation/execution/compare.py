@@ -37,7 +37,7 @@ class Change:
 
 
 def compare(old: Recorded, new: Recorded, *, margin: float = MARGIN) -> tuple[Change, ...]:
-    """Return what became of each score, in the order of the old run, then the new ones.
+    """What became of each score, in the order of the old run, then the new ones.
 
     A score is worse when the interval of its difference lies on the wrong side of 0 and the
     difference is greater than `margin`, or when it has no value any more.
@@ -108,7 +108,7 @@ def _verdict(
 def _interval(
     definition: Definition, old: pd.DataFrame, new: pd.DataFrame, *, scores: int
 ) -> tuple[float, float]:
-    """Return the interval of new − old that holds for all scores together at 95 % (Bonferroni).
+    """Interval of new − old that holds for all scores together at 95 % (Bonferroni).
 
     The standard error is that of a bootstrap over rocks, the same draws for both runs; where a
     score has no weights, that of leaving out groups of scenes in turn (Tukey 1958), NaN under
@@ -134,7 +134,7 @@ def _interval(
 def _jackknife(
     definition: Definition, old: pd.DataFrame, new: pd.DataFrame, *, tail: float
 ) -> tuple[float, float]:
-    """Return the standard error of new − old by leaving out scenes, and its quantile of t."""
+    """Standard error of new − old by leaving out scenes, and its quantile of t."""
     found = np.array([after - before for before, after in _left_out(definition, old, new)])
     found = found[np.isfinite(found)]
     groups = found.size

@@ -21,7 +21,7 @@ _STARTING = threading.Lock()  # one process at a time hides the main module
 
 
 def default_jobs() -> int:
-    """Return the number of processors this process may use."""
+    """Number of processors this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1

@@ -47,7 +47,7 @@ _GROUP_PREFIXES = (
 
 
 def loadable_files(root: Path, *, left_out: Collection[str]) -> Iterator[tuple[str, Path]]:
-    """Yield (name, path) of each file under a package's folder, in the order of the names.
+    """(name, path) of each file under a package's folder, in the order of the names.
 
     A name is the package's and the path within it, `rockshape/errors.py`; `left_out` names files
     and folders.
@@ -61,14 +61,14 @@ def loadable_files(root: Path, *, left_out: Collection[str]) -> Iterator[tuple[s
 
 
 def left_out_files() -> frozenset[str]:
-    """Return the files and folders that no worker loads, those of installed kinds included."""
+    """Files and folders that no worker loads, those of installed kinds included."""
     judging = (module for kind in installed_kinds().values() for module in kind.never_in_workers)
     names = [module.replace(".", "/") for module in judging]
     return LEFT_OUT | {*names, *(f"{name}.py" for name in names)}
 
 
 def tree_digest(roots: Collection[Path], *, left_out: Collection[str]) -> str:
-    """Return the SHA-256 of the names and contents of the packages' files."""
+    """SHA-256 of the names and contents of the packages' files."""
     digest = hashlib.sha256()
     for root in roots:
         for name, path in loadable_files(root, left_out=left_out):
@@ -77,7 +77,7 @@ def tree_digest(roots: Collection[Path], *, left_out: Collection[str]) -> str:
 
 
 def _required() -> set[str]:
-    """Return the names of the distributions that ours needs at run time."""
+    """Names of the distributions that ours needs at run time."""
     found = (_NAME.match(text) for text in requires("rockshape") or () if "extra ==" not in text)
     return {_normal(match.group()) for match in found if match}
 
@@ -87,7 +87,7 @@ def _normal(name: str) -> str:
 
 
 def _plugins(distribution: Distribution) -> set[str]:
-    """Return the top-level modules by which a distribution adds to the packages."""
+    """Top-level modules by which a distribution adds to the packages."""
     if _normal(distribution.metadata["Name"]) == "rockshape":
         return set()
     points = distribution.entry_points
@@ -95,7 +95,7 @@ def _plugins(distribution: Distribution) -> set[str]:
 
 
 def _sources(module: str) -> Iterator[bytes]:
-    """Yield what a top-level module or package consists of, installed or editable."""
+    """What a top-level module or package consists of, installed or editable."""
     spec = find_spec(module)
     if spec is None:
         return
@@ -107,7 +107,7 @@ def _sources(module: str) -> Iterator[bytes]:
 
 
 def _installed() -> Iterator[bytes]:
-    """Yield the versions of what we need, and of the plug-ins their sources too."""
+    """Versions of what we need, and of the plug-ins their sources too."""
     needed = _required()
     for distribution in sorted(distributions(), key=lambda each: _normal(each.metadata["Name"])):
         name, plugins = _normal(distribution.metadata["Name"]), _plugins(distribution)
@@ -119,7 +119,7 @@ def _installed() -> Iterator[bytes]:
 
 @cache
 def code_digest() -> str:
-    """Return a hash of the files and versions that can change a unit's result."""
+    """Hash of the files and versions that can change a unit's result."""
     digest = hashlib.sha256(platform.python_version().encode())
     roots = [Path(str(files(package))) for package in PACKAGES]
     digest.update(tree_digest(roots, left_out=left_out_files()).encode())

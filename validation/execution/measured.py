@@ -69,7 +69,7 @@ def measure_view(
 
 
 def joined(views: Sequence[UnitResult], *, backend: str = "") -> UnitResult:
-    """Return the results of a unit's views as the unit's."""
+    """Results of a unit's views as the unit's."""
     return UnitResult(
         records=pd.concat([view.records for view in views], ignore_index=True),
         pictures=tuple(picture for view in views for picture in view.pictures),

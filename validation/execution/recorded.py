@@ -84,7 +84,7 @@ def check_paired(old: Recorded, new: Recorded) -> None:
 
 
 def _rocks(run: Recorded, experiments: set[str]) -> pd.DataFrame:
-    """Return the rocks of some experiments with the truths that claims are held by."""
+    """Rocks of some experiments with the truths that claims are held by."""
     rows = run.records[run.records["status"].isin(["matched", "missed"])]
     rows = rows[rows["experiment"].isin(sorted(experiments))]
     truths = sorted({claim.truth for claim in all_claims(run.suite)} & set(rows.columns))
@@ -92,5 +92,5 @@ def _rocks(run: Recorded, experiments: set[str]) -> pd.DataFrame:
 
 
 def failed_gates(old: Recorded, new: Recorded) -> tuple[str, ...]:
-    """Return the gates that the old run passed and the new one fails."""
+    """Gates that the old run passed and the new one fails."""
     return tuple(name for name, passed in new.gates.items() if not passed and old.gates.get(name))

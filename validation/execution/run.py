@@ -68,7 +68,7 @@ def assess(suite: Suite, gates: Sequence[Gate], results: Iterable[Result]) -> Ru
 
 
 def prepare(suite: Suite) -> Suite:
-    """Return the suite with the renderers that this machine has; its units are then settled.
+    """Suite with the renderers that this machine has; its units are then settled.
 
     Raises:
         MissingBackendError: the machine lacks the renderer; found out before any work is done.

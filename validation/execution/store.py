@@ -34,7 +34,7 @@ _PORTRAITS = b"rockshape.portraits"
 
 
 def _held(file: Path | io.BytesIO) -> dict[bytes, bytes]:
-    """Return what a unit's file holds beside its records."""
+    """What a unit's file holds beside its records."""
     found: dict[bytes, bytes] | None = pq.read_metadata(file).metadata
     return found or {}
 
@@ -69,7 +69,7 @@ class StoredResult:
 
     @property
     def album(self) -> Album:
-        """Return what reads the portraits; it holds no records."""
+        """What reads the portraits; it holds no records."""
         return partial(read_portraits, self.path)
 
 
@@ -80,7 +80,7 @@ def read_portraits(path: Path) -> tuple[Portrait, ...]:
 
 
 def pack(result: UnitResult) -> bytes:
-    """Return a unit's result as the bytes of its file; equal results give equal bytes."""
+    """Unit's result as the bytes of its file; equal results give equal bytes."""
     head = {
         "code": code_digest(),
         "backend": result.backend,
@@ -109,13 +109,13 @@ def pack(result: UnitResult) -> bytes:
 
 
 def code_of(packed: bytes) -> str:
-    """Return the digest of the code that made a packed result."""
+    """Digest of the code that made a packed result."""
     head = json.loads(_held(io.BytesIO(packed))[_HEAD])
     return str(head["code"])
 
 
 def unit_key(unit: AnyUnit) -> str:
-    """Return the SHA-256 of a unit's spec, methods and measures, and of the code that runs it."""
+    """SHA-256 of a unit's spec, methods and measures, and of the code that runs it."""
     text = json.dumps([FORMAT, code_digest(), spec_of(unit)], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()
 
@@ -148,7 +148,7 @@ class UnitStore:
         self._folder = folder
 
     def path(self, key: str) -> Path:
-        """Return where the result of a key stands."""
+        """Where the result of a key stands."""
         return self._folder / key[:2] / f"{key}.parquet"
 
     def has(self, key: str) -> bool:

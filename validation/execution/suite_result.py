@@ -23,19 +23,19 @@ class SuiteResult:
     report: Path | None  # folder of the report, if one was asked for
 
     def __repr__(self) -> str:
-        """Return the suite's name and its count of passed gates."""
+        """Suite's name and its count of passed gates."""
         good = int(self.gates["passed"].sum())
         verdict = "passed" if self.passed else "FAILED"
         return f"SuiteResult({self.name!r}: {verdict}, {good} of {len(self.gates)} gates)"
 
     def _repr_html_(self) -> str:
-        """Return the gates as a table, for a notebook."""
+        """Gates as a table, for a notebook."""
         table = self.gates.to_html(index=False, float_format="{:.4g}".format, na_rep="")
         return f"<p>{escape(repr(self))}</p>\n{table}"
 
 
 def suite_result(run: Run, report: Path | None) -> SuiteResult:
-    """Return a run's scores, gates and records as tables."""
+    """Run's scores, gates and records as tables."""
     return SuiteResult(
         name=run.suite.name,
         scores=pd.DataFrame([_score_row(score) for score in run.scores], columns=_SCORE),

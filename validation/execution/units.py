@@ -42,12 +42,12 @@ class UnitResult:
     portraits: tuple[Portrait, ...] = ()
 
     def album(self) -> tuple[Portrait, ...]:
-        """Return the portraits."""
+        """Portraits."""
         return self.portraits
 
 
 def units_of(suite: Suite) -> tuple[AnyUnit, ...]:
-    """Return all units of a suite, in the order of their records."""
+    """All units of a suite, in the order of their records."""
     return tuple(
         Unit(
             experiment,
@@ -62,13 +62,13 @@ def units_of(suite: Suite) -> tuple[AnyUnit, ...]:
 
 
 def describe(unit: AnyUnit) -> str:
-    """Return a unit's name for the progress."""
+    """Unit's name for the progress."""
     words = (unit.experiment.name, unit.series, str(unit.experiment.seed + unit.scene))
     return " ".join(word for word in words if word)
 
 
 def spec_of(unit: AnyUnit) -> dict[str, object]:
-    """Return everything that a unit's result depends on but the code, as plain values."""
+    """Everything that a unit's result depends on but the code, as plain values."""
     return {
         "experiment": unit.experiment.dependencies(unit.series, unit.scene),
         "unit": (unit.series, unit.scene),
@@ -83,6 +83,6 @@ def spec_of(unit: AnyUnit) -> dict[str, object]:
 
 @cache
 def _plugin_digest(plugin: str) -> str:
-    """Return the SHA-256 of the file of a plug-in's module."""
+    """SHA-256 of the file of a plug-in's module."""
     file = inspect.getsourcefile(load_plugin(plugin))
     return sha256(Path(file).read_bytes()).hexdigest() if file else ""

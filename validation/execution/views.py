@@ -48,12 +48,12 @@ class SceneView:
     truth: pd.DataFrame  # one row a rock: its own truth and that of the view
 
     def observation(self, points_m: NDArray[np.float64] | None) -> Observation:
-        """Return the view with range as given, or without any."""
+        """View with range as given, or without any."""
         return Observation(image=self.image, points_m=points_m, camera=self.camera)
 
 
 def dataset_views(spec: SceneSpec, *, exact: bool = False) -> tuple[list[SceneView], str]:
-    """Return the views of scene 0 of a spec, written and read back, and the renderer.
+    """Views of scene 0 of a spec, written and read back, and the renderer.
 
     With `exact`, exact range is read too where the sensor's has noise; otherwise it is the same.
     """
@@ -89,7 +89,7 @@ def dataset_views(spec: SceneSpec, *, exact: bool = False) -> tuple[list[SceneVi
 def captured_view(
     number: int, lens: RenderCamera, rendered: RenderedView, capture: Capture, truth: SceneTruth
 ) -> SceneView:
-    """Return a view from the renderer's exact depth and labels and what the sensor made of them."""
+    """View from the renderer's exact depth and labels and what the sensor made of them."""
     white = np.iinfo(capture.picture.dtype).max
     camera = Camera(lens.fx, lens.fy, lens.cx, lens.cy, lens.width, lens.height)
     return _view(
@@ -128,7 +128,7 @@ def _view(
 
 
 def _true_centres(instances: NDArray[np.int32]) -> pd.DataFrame:
-    """Return the centre of each instance's visible pixels, (instance, truth_row, truth_col)."""
+    """Centre of each instance's visible pixels, (instance, truth_row, truth_col)."""
     numbers = np.unique(instances[instances > 0])
     centres = ndi.center_of_mass(instances > 0, instances, numbers) if numbers.size else []
     table = pd.DataFrame(centres, columns=["truth_row", "truth_col"], dtype=np.float64)
@@ -137,7 +137,7 @@ def _true_centres(instances: NDArray[np.int32]) -> pd.DataFrame:
 
 
 def with_eligibility(truth: pd.DataFrame, *, min_visible_fraction: float) -> pd.DataFrame:
-    """Return a view's truth with the column `eligible`: wholly in the frame and in plain view."""
+    """View's truth with the column `eligible`: wholly in the frame and in plain view."""
     eligible = ~truth["truth_truncated"].astype(bool)
     eligible &= truth["truth_visible_fraction"] >= min_visible_fraction
     told = truth.copy()

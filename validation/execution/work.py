@@ -23,7 +23,7 @@ class MeasuredWork(Work[E_contra], Protocol[E_contra]):
     """Work of a kind whose claims are held against measured views, for the mutation bench."""
 
     def views(self, unit: Unit[E_contra], /) -> tuple[list[ViewCase], str]:
-        """Return the views of a unit and the renderer."""
+        """Views of a unit and the renderer."""
 
 
 def work_of(experiment: Experiment) -> Work[Experiment]:
@@ -39,5 +39,5 @@ def run_unit(unit: AnyUnit) -> UnitResult:
 
 
 def views_of(unit: AnyUnit) -> list[ViewCase]:
-    """Return the views of a unit, not yet measured."""
+    """Views of a unit, not yet measured."""
     return cast(MeasuredWork[Experiment], work_of(unit.experiment)).views(unit)[0]

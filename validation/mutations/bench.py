@@ -38,19 +38,19 @@ class Bench:
     records: pd.DataFrame
 
     def failing(self, records: pd.DataFrame) -> tuple[str, ...]:
-        """Return the gates that records fail."""
+        """Gates that records fail."""
         results = evaluate(self.suite.gates, gate_scores(self.suite, self.suite.gates, records))
         return tuple(
             f"{r.gate.score} {r.gate.relation} {r.gate.bound:g}" for r in results if not r.passed
         )
 
     def first_scenes(self, experiments: tuple[str, ...]) -> pd.DataFrame:
-        """Return the undisturbed records with the first scene alone of some experiments."""
+        """Undisturbed records with the first scene alone of some experiments."""
         later = self.records["experiment"].isin(experiments) & (self.records["scene"] > 0)
         return self.records[~later]
 
     def catch(self, mutation: Mutation) -> Caught:
-        """Return what the gates say of a mutation."""
+        """What the gates say of a mutation."""
         own = self.records["experiment"].isin(mutation.experiments)
         parts = [self.records[~own]]
         for view, found in self.views:
@@ -106,7 +106,7 @@ def _mutated(view: ViewCase, found: Measurement, mutation: Mutation) -> pd.DataF
 
 
 def part_of(suite: Suite, *, scenes: int, method: str) -> Suite:
-    """Return a method's part of a suite: its first scenes and the gates on its scores.
+    """Method's part of a suite: its first scenes and the gates on its scores.
 
     Gates of other methods are left out, and experiments that claim nothing.
     """

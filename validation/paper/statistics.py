@@ -5,7 +5,7 @@ from validation.scores.agreement import STATISTICS
 
 
 def paper_values() -> dict[str, dict[str, float]]:
-    """Return {measure: {statistic: value}} for the paper's three roundness-type measures."""
+    """{measure: {statistic: value}} for the paper's three roundness-type measures."""
     return {
         measure: {
             statistic.key: statistic.compute([consistency_table(number).block]).value

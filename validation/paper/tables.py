@@ -32,7 +32,7 @@ def _read(name: str) -> pd.DataFrame:
 
 
 def consistency_table(number: int) -> ConsistencyTable:
-    """Return table 1 (2-D angularity), 2 (ellipse error, px²) or 3 (3-D angularity).
+    """Table 1 (2-D angularity), 2 (ellipse error, px²) or 3 (3-D angularity).
 
     Raises:
         ValueError: the number is not 1, 2 or 3.
@@ -50,12 +50,12 @@ def consistency_table(number: int) -> ConsistencyTable:
 
 
 def garden_table() -> pd.DataFrame:
-    """Return table 4: seven measures of 38 rocks of the Martian Rock Garden, indexed by rock."""
+    """Table 4: seven measures of 38 rocks of the Martian Rock Garden, indexed by rock."""
     return _read("table4.csv").set_index("rock")
 
 
 def garden_correlation(first: str, second: str) -> float:
-    """Return Spearman's ρ between two columns of table 4."""
+    """Spearman's ρ between two columns of table 4."""
     frame = garden_table()
     return float(stats.spearmanr(frame[first], frame[second]).statistic)
 
@@ -73,12 +73,12 @@ GARDEN_TWICE = ((13, 18), (28, 33))  # Bamm-Bamm and Flat Top, each in two image
 
 
 def garden_rank_move(column: str) -> float:
-    """Return how far the rocks seen twice move in table 4, mean, as a share of its 38 places."""
+    """How far the rocks seen twice move in table 4, mean, as a share of its 38 places."""
     ranks = garden_table()[column].rank()
     moves = [abs(ranks[one] - ranks[other]) for one, other in GARDEN_TWICE]
     return float(np.mean(moves) / len(ranks))
 
 
 def ranking_table() -> pd.Series:
-    """Return table 5: the 3-D angularity of the 38 rocks of table 4, from least to most."""
+    """Table 5: the 3-D angularity of the 38 rocks of table 4, from least to most."""
     return _read("table5.csv").set_index("rock")["angularity_3d"]

@@ -14,7 +14,7 @@ class RecordKey:
     """Where a row comes from; the first columns of the records."""
 
     experiment: str
-    kind: str  # yard, shapes or segmentation
+    kind: str  # multiview, shapes, …
     series: str  # of shapes; a sweep's step; way and range of a segmentation; else empty
     scene: int
     seed: int

@@ -75,7 +75,7 @@ class Cut:
     height_px: int
 
     def units(self, x_px: NDArray[np.float64], y_px: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return places of the image, where a pixel's centre is whole, in a mark's units (n, 2)."""
+        """Places of the image, where a pixel's centre is whole, in a mark's units (n, 2)."""
         across = UNITS * self.width_px / (self.right - self.left)
         down = UNITS * self.height_px / (self.bottom - self.top)
         return np.column_stack([across * (x_px + 0.5 - self.left), down * (y_px + 0.5 - self.top)])
@@ -84,7 +84,7 @@ class Cut:
 def cut_round(
     shown: NDArray[np.bool_], *, margin: float, widest_px: int, square: bool = False
 ) -> Cut:
-    """Return the cut round all that is shown, (rows, cols), or the whole image without any.
+    """Cut round all that is shown, (rows, cols), or the whole image without any.
 
     `margin` is a share of the longer side. The cut's longer side becomes `widest_px` or less. A
     square cut is one as far as the image reaches.
@@ -109,7 +109,7 @@ def cut_round(
 
 
 def jpeg_of(image: NDArray[np.uint8], cut: Cut) -> bytes:
-    """Return the cut of an image, (rows, cols) grey or (rows, cols, 3) RGB, as a JPEG."""
+    """Cut of an image, (rows, cols) grey or (rows, cols, 3) RGB, as a JPEG."""
     part = image[cut.top : cut.bottom, cut.left : cut.right]
     part = np.ascontiguousarray(part[..., ::-1] if part.ndim == 3 else part)
     small = cv2.resize(part, (cut.width_px, cut.height_px), interpolation=cv2.INTER_AREA)
@@ -120,7 +120,7 @@ def jpeg_of(image: NDArray[np.uint8], cut: Cut) -> bytes:
 
 
 def compress(image_rgb: NDArray[np.uint8], labels: NDArray[np.int32]) -> tuple[bytes, int, int]:
-    """Return a JPEG of an image cut to the labels (rows, cols), its width and its height."""
+    """JPEG of an image cut to the labels (rows, cols), its width and its height."""
     cut = cut_round(labels > 0, margin=0.12, widest_px=WIDEST_PX)
     return jpeg_of(image_rgb, cut), cut.width_px, cut.height_px
 
@@ -132,7 +132,7 @@ def mark(
     ellipse: Ellipse | None,
     cut: Cut,
 ) -> Mark:
-    """Return the mark of an outline (n, 2) as (x, y) and of an ellipse, in pixels of the image."""
+    """Mark of an outline (n, 2) as (x, y) and of an ellipse, in pixels of the image."""
     places = cut.units(outline_px[:, 0], outline_px[:, 1]).astype(np.float32)
     kept = cv2.approxPolyDP(places[:, None], _TOLERANCE_PX * UNITS, True)[:, 0]
     return Mark(

@@ -31,7 +31,7 @@ def _grey(image: NDArray[np.float32]) -> NDArray[np.uint8]:
 
 
 def whole_view(image: NDArray[np.float32], found: Measurement, place: RecordKey) -> Picture:
-    """Return the picture of a view, cut to its rocks and marked with all that were found."""
+    """Picture of a view, cut to its rocks and marked with all that were found."""
     cut = cut_round(found.labels > 0, margin=0.12, widest_px=WIDEST_PX)
     return Picture(
         replace(place, method=found.method),
@@ -52,7 +52,7 @@ def portraits(
     records: pd.DataFrame,
     place: RecordKey,
 ) -> tuple[Portrait, ...]:
-    """Return a portrait of each true rock in sight, then of each thing taken for one.
+    """Portrait of each true rock in sight, then of each thing taken for one.
 
     `instances` (rows, cols) shows instance i as i + 1; `records` say which rock of which method is
     its partner. A portrait shows the true border and all that methods made of it.
@@ -91,7 +91,7 @@ class _Painter:
     def paint(
         self, method: str, true: NDArray[np.bool_], rocks: dict[str, int], instance: int | None
     ) -> Picture:
-        """Return the picture round a true mask and the rocks, by method, that were made of it."""
+        """Picture round a true mask and the rocks, by method, that were made of it."""
         shown = true.copy()
         for each, number in rocks.items():
             shown |= self.made[each].labels == number
@@ -106,7 +106,7 @@ class _Painter:
 
 
 def _true_border(true: NDArray[np.bool_], instance: int, cut: Cut) -> Mark:
-    """Return the border of a true mask: of its largest piece, round its pixels' centres."""
+    """Border of a true mask: of its largest piece, round its pixels' centres."""
     contours, _ = cv2.findContours(true.astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
     largest = max(contours, key=len)
     return mark(TRUE, instance, largest[:, 0].astype(np.float64), None, cut)

@@ -45,7 +45,7 @@ class SceneTruth(Struct, frozen=True, kw_only=True):
 
 
 def as_scene_truth(table: dict[str, Any]) -> SceneTruth:
-    """Return a scene's truth from the table that `scene_gt_shape.json` is written from."""
+    """Scene's truth from the table that `scene_gt_shape.json` is written from."""
     return msgspec.convert(plain(table), SceneTruth)
 
 
@@ -84,7 +84,7 @@ def read_instances(path: Path) -> NDArray[np.int32]:
 
 
 def rock_columns(rock: RockTruth) -> dict[str, object]:
-    """Return a rock's truth as columns of the results; NaN where there is none."""
+    """Rock's truth as columns of the results; NaN where there is none."""
     a, b, c = rock.half_axes_box_m
     roundness = np.nan if rock.roundness is None else rock.roundness
     wadell = np.nan if rock.wadell_sphericity is None else rock.wadell_sphericity
@@ -103,7 +103,7 @@ def rock_columns(rock: RockTruth) -> dict[str, object]:
 
 
 def view_columns(rock: RockInView) -> dict[str, object]:
-    """Return what one view truly shows of a rock as columns of the results."""
+    """What one view truly shows of a rock as columns of the results."""
     roundness = np.nan if rock.outline_roundness is None else rock.outline_roundness
     return {
         "instance": rock.instance,

@@ -44,7 +44,7 @@ class ViewScore:
     measures: pd.DataFrame  # one row a measure: its truth, Kendall's τ_b, bias and RMS error
 
     def __repr__(self) -> str:
-        """Return the counts of true, found and matched rocks."""
+        """Counts of true, found and matched rocks."""
         status = self.rocks["status"].value_counts()
         matched, missed, extra = (int(status.get(s, 0)) for s in ("matched", "missed", "extra"))
         return (
@@ -53,7 +53,7 @@ class ViewScore:
         )
 
     def _repr_html_(self) -> str:
-        """Return the measures' scores and the rocks, for a notebook."""
+        """Measures' scores and the rocks, for a notebook."""
         tables = [
             table.to_html(index=False, float_format="{:.4g}".format, na_rep="")
             for table in (self.measures, self.rocks)
@@ -62,7 +62,7 @@ class ViewScore:
 
 
 def score_view(found: Measurement, view: TrueView, *, min_iou: float) -> ViewScore:
-    """Return a measurement matched with a view's truth.
+    """Measurement matched with a view's truth.
 
     Raises:
         InputError: the images' sizes differ, or the truth has no column `id`.
@@ -91,7 +91,7 @@ def score_view(found: Measurement, view: TrueView, *, min_iou: float) -> ViewSco
 
 
 def _rocks(truth: pd.DataFrame, partner: pd.DataFrame, table: pd.DataFrame) -> pd.DataFrame:
-    """Return true rocks with their partners, then measured rocks without one."""
+    """True rocks with their partners, then measured rocks without one."""
     true = truth.add_prefix("truth_").rename(columns={"truth_id": "id"})
     rows = true.merge(partner, on="id", how="left").merge(table, on="rock", how="left")
     rows.insert(1, "status", np.where(rows["rock"].notna(), "matched", "missed"))
@@ -103,7 +103,7 @@ def _rocks(truth: pd.DataFrame, partner: pd.DataFrame, table: pd.DataFrame) -> p
 def _scored(
     rocks: pd.DataFrame, measures: tuple[Measure, ...]
 ) -> Iterator[tuple[str, str, int, float, float, float]]:
-    """Yield measure, truth, rocks with both, τ_b, bias and RMS error of each judged measure."""
+    """Measure, truth, rocks with both, τ_b, bias and RMS error of each judged measure."""
     matched = rocks[rocks["status"] == "matched"]
     for measure in measures:
         truth = _truth_of(measure, matched)
@@ -128,7 +128,7 @@ def _scored(
 def _truth_of(
     measure: Measure, rocks: pd.DataFrame
 ) -> tuple[str, NDArray[np.float64], bool] | None:
-    """Return the truth's name, its values and whether it is the very quantity measured."""
+    """Truth's name, its values and whether it is the very quantity measured."""
     name = measure.view_truth or (measure.expected_trait or "")
     name = _TRAITS[name][0] if name in _TRAITS else name
     source = _REVERSED.get(name, name)

@@ -41,12 +41,12 @@ class Points:
 
 
 def mark_symbols() -> Markup:
-    """Return the marks of the views, which every chart draws on."""
+    """Marks of the views, which every chart draws on."""
     return Markup("".join(f'<g id="k{i}">{shape}</g>' for i, shape in enumerate(_SHAPES)))
 
 
 def view_key(view: int) -> Markup:
-    """Return the mark of a view for a legend."""
+    """Mark of a view for a legend."""
     style = view % VIEW_STYLES
     return Markup(
         f'<svg class="key" viewBox="-6 -6 12 12" aria-hidden="true">'
@@ -57,7 +57,7 @@ def view_key(view: int) -> Markup:
 def scatter(
     points: Points, *, x_title: str, y_title: str, summary: str, unshown: str = "unshown"
 ) -> Markup:
-    """Return an SVG of points with two axes; `summary` is what a screen reader says.
+    """SVG of points with two axes; `summary` is what a screen reader says.
 
     Points without a finite x and y are left out; without any, a line says so. A point whose rock
     the page does not show leads to the place `unshown`.
@@ -110,7 +110,7 @@ def _grid(across: Axis, up: Axis) -> str:
 
 
 def _shades(x: NDArray[np.float64], y: NDArray[np.float64]) -> str:
-    """Return cells shaded by how many points they hold, on a logarithmic scale."""
+    """Cells shaded by how many points they hold, on a logarithmic scale."""
     box = ((LEFT, WIDTH - RIGHT), (TOP, HEIGHT - BOTTOM))
     counts, edges_x, edges_y = np.histogram2d(x, y, bins=CELLS, range=box)
     scale = np.log1p(counts) / np.log1p(counts.max())
@@ -129,7 +129,7 @@ def _shades(x: NDArray[np.float64], y: NDArray[np.float64]) -> str:
 
 
 def span(value: float, low: float, high: float, *, start: float, end: float) -> Markup:
-    """Return a value as a dot with its interval as a line, on the way from `start` to `end`."""
+    """Value as a dot with its interval as a line, on the way from `start` to `end`."""
     if not np.isfinite(value):
         return Markup("")
 

@@ -9,7 +9,7 @@ _TOLD = ("worse", "gone", "better", "moved")
 
 
 def comparison_markdown(changes: Sequence[Change], fallen: Sequence[str]) -> str:
-    """Return the verdict, the gates that fell and what moved; the rest is only counted."""
+    """Verdict, the gates that fell and what moved; the rest is only counted."""
     counts = dict.fromkeys((*_TOLD, "new", "same"), 0)
     for change in changes:
         counts[change.verdict] += 1

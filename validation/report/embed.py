@@ -11,12 +11,12 @@ SLICE = 'preserveAspectRatio="xMidYMid slice"'  # fills the place it is shown in
 
 
 def data_uri(jpeg: bytes) -> str:
-    """Return a JPEG as an address that holds it."""
+    """JPEG as an address that holds it."""
     return "data:image/jpeg;base64," + base64.b64encode(jpeg).decode("ascii")
 
 
 def outline_path(outline: Sequence[int]) -> str:
-    """Return a closed outline x, y, x, y, … as an SVG path of relative steps."""
+    """Closed outline x, y, x, y, … as an SVG path of relative steps."""
     steps = [f"M{outline[0]} {outline[1]}l"]
     for i in range(2, len(outline), 2):
         dx, dy = outline[i] - outline[i - 2], outline[i + 1] - outline[i - 1]
@@ -26,7 +26,7 @@ def outline_path(outline: Sequence[int]) -> str:
 
 
 def mark_lines(mark: Mark) -> Markup:
-    """Return a mark's ellipse and outline; the true border is of another style."""
+    """Mark's ellipse and outline; the true border is of another style."""
     style = "true" if mark.method == TRUE else "found"
     lines = f'<path class="{style}" d="{outline_path(mark.outline)}"/>' if mark.outline else ""
     if mark.ellipse is not None:
@@ -39,13 +39,13 @@ def mark_lines(mark: Mark) -> Markup:
 
 
 def centre(mark: Mark) -> tuple[float, float]:
-    """Return the middle of a mark's outline, where its number stands."""
+    """Middle of a mark's outline, where its number stands."""
     across, down = mark.outline[0::2], mark.outline[1::2]
     return (min(across) + max(across)) / 2, (min(down) + max(down)) / 2
 
 
 def symbols(name: str, portrait: Portrait) -> Markup:
-    """Return a portrait's symbols: `name` is its picture, `name` and a method that one's lines."""
+    """Portrait's symbols: `name` is its picture, `name` and a method that one's lines."""
     picture = portrait.picture
     width, height = UNITS * picture.width_px, UNITS * picture.height_px
     start = f'<symbol id="{escape(name)}%s" viewBox="0 0 {width} {height}" {SLICE}>%s</symbol>'

@@ -46,7 +46,7 @@ def shown_pictures(
     words: Callable[[RecordKey], tuple[str, str]],
     share: float = 1.0,
 ) -> tuple[ShownPicture, ...]:
-    """Return the pictures of an experiment, its part of what the page has room for.
+    """Pictures of an experiment, its part of what the page has room for.
 
     `words` says what the picture of a place shows, in full and as a caption.
     """
@@ -63,7 +63,7 @@ def shown_pictures(
 def _places(
     chosen: Mapping[RockKey, Sequence[Portrait]],
 ) -> dict[tuple[str, str, int, int, str, int], str]:
-    """Return the page's place of each rock by where, by whom and as what it was found."""
+    """Page's place of each rock by where, by whom and as what it was found."""
     return {
         (*key[:3], one.picture.place.view, mark.method, mark.rock): key.id
         for key, portraits in chosen.items()

@@ -61,7 +61,7 @@ def check_target(out: Path) -> None:
 
 
 def _beside(out: Path) -> TemporaryDirectory[str]:
-    """Return a folder for drafts on the disk of the run's own."""
+    """Folder for drafts on the disk of the run's own."""
     return TemporaryDirectory(prefix=f".{out.name}-", dir=out.parent)
 
 

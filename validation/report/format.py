@@ -4,7 +4,7 @@ import math
 
 
 def number(value: float) -> str:
-    """Return a number for reading: three decimals below 100, none above, a dash for NaN."""
+    """Number for reading: three decimals below 100, none above, a dash for NaN."""
     if not math.isfinite(value):
         return "–"
     if value == 0 or 1e-3 <= abs(value) < 100:
@@ -17,7 +17,7 @@ def number(value: float) -> str:
 
 
 def interval(low: float, high: float) -> str:
-    """Return an interval for reading, empty where there is none."""
+    """Interval for reading, empty where there is none."""
     if not (math.isfinite(low) and math.isfinite(high)):
         return ""
     return f"{number(low)} … {number(high)}"

@@ -9,7 +9,7 @@ from validation.report.format import number
 
 
 def junit_xml(run: Run) -> str:
-    """Return JUnit XML with one test case a gate; a failure says found, bound and reason."""
+    """JUnit XML with one test case a gate; a failure says found, bound and reason."""
     suite = TestSuite(f"rockshape validate {run.suite.name}")
     for result in run.gates:
         case = TestCase(

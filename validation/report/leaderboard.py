@@ -39,7 +39,7 @@ class Board:
 
 
 def leaderboards(run: Run) -> tuple[Board, ...]:
-    """Return a board for each experiment that has one and each truth, the best order first."""
+    """Board for each experiment that has one and each truth, the best order first."""
     scores = {score.name: score for score in run.scores}
     entries: dict[tuple[str, str], list[tuple[Score, float]]] = {}
     claims = [
@@ -74,7 +74,7 @@ def _ranked(found: list[tuple[Score, float]]) -> tuple[Rank, ...]:
 
 
 def leaderboard_lines(run: Run) -> list[str]:
-    """Return the boards as Markdown."""
+    """Boards as Markdown."""
     lines = []
     for board in leaderboards(run):
         lines += [

@@ -27,7 +27,7 @@ class Line:
 
 
 def _height(lines: Sequence[Line], most: float) -> Axis:
-    """Return the vertical axis: all values and intervals, and 0 to `most` at least."""
+    """Vertical axis: all values and intervals, and 0 to `most` at least."""
     shown = np.array([v for line in lines for v in (*line.values, *line.lows, *line.highs)])
     shown = shown[np.isfinite(shown)]
     low, high = float(min([0.0, *shown])), float(max([most, *shown]))
@@ -37,7 +37,7 @@ def _height(lines: Sequence[Line], most: float) -> Axis:
 def line_chart(
     lines: Sequence[Line], *, steps: Sequence[str], x_title: str, title: str, most: float
 ) -> Markup:
-    """Return an SVG with the steps evenly along x; bars are the values' intervals.
+    """SVG with the steps evenly along x; bars are the values' intervals.
 
     The vertical axis reaches from 0 to `most` at least.
     """
@@ -63,7 +63,7 @@ def line_chart(
 def _drawn(
     line: Line, height: Axis, across: Sequence[float], steps: Sequence[str]
 ) -> Iterator[str]:
-    """Yield a line's path, then its bars and marks; a step without a value breaks the path."""
+    """Line's path, then its bars and marks; a step without a value breaks the path."""
     path, pen = "", "M"
     for x, value in zip(across, line.values, strict=True):
         if not np.isfinite(value):

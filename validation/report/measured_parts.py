@@ -29,7 +29,7 @@ def measured_parts(
     words: Callable[[RecordKey], tuple[str, str]],
     subject: Subject = ROCKS,
 ) -> MeasuredParts:
-    """Return the parts of an experiment; `words` says what a picture shows."""
+    """Parts of an experiment; `words` says what a picture shows."""
     return MeasuredParts(
         plots(run, experiment, room.chosen, most_points=room.most_points, what=subject.what),
         shown_pictures(run, experiment.name, room.chosen, words=words, share=room.share),

@@ -25,7 +25,7 @@ def _resource(name: str) -> Markup:
 
 
 def page_html(run: Run, *, command: str, seconds: float) -> str:
-    """Return the page of a run, its style, script and pictures inside; as much as fits 5 MB."""
+    """Page of a run, its style, script and pictures inside; as much as fits 5 MB."""
     html = ""
     for share in SHARES:
         html = _page(run, share, command=command, seconds=seconds)

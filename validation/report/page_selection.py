@@ -26,7 +26,7 @@ def _scenes_shown(run: Run) -> dict[str, int]:
 
 
 def _measured(run: Run) -> pd.DataFrame:
-    """Return the records of rocks and shapes that can be shown.
+    """Records of rocks and shapes that can be shown.
 
     What is no true rock counts once: measures from elsewhere stand on the first method's masks.
     """
@@ -36,7 +36,7 @@ def _measured(run: Run) -> pd.DataFrame:
 
 
 def outliers(run: Run) -> list[RockKey]:
-    """Return what is wrong first: missed and taken for rocks, then the farthest of each claim."""
+    """What is wrong first: missed and taken for rocks, then the farthest of each claim."""
     measured = _measured(run)
     missed = measured[measured["status"].eq("missed") & measured["eligible"].astype(bool)]
     lists = [
@@ -52,7 +52,7 @@ def outliers(run: Run) -> list[RockKey]:
 
 
 def _candidates(run: Run) -> Iterator[RockKey]:
-    """Yield the rocks of the pictured scenes, then what is farthest off, then all others."""
+    """Rocks of the pictured scenes, then what is farthest off, then all others."""
     measured = _measured(run)
     if measured.empty:
         return
@@ -64,7 +64,7 @@ def _candidates(run: Run) -> Iterator[RockKey]:
 
 
 def choose(run: Run, budget_bytes: float) -> dict[RockKey, tuple[Portrait, ...]]:
-    """Return the rocks to show with their portraits, as many as the budget allows."""
+    """Rocks to show with their portraits, as many as the budget allows."""
 
     @cache
     def album(experiment: str, series: str, scene: int) -> dict[RockKey, list[Portrait]]:
@@ -94,7 +94,7 @@ def choose(run: Run, budget_bytes: float) -> dict[RockKey, tuple[Portrait, ...]]
 
 
 def _cost(portraits: tuple[Portrait, ...], columns: int) -> float:
-    """Return about how many bytes of the page a rock takes."""
+    """About how many bytes of the page a rock takes."""
     text = max(1, len(portraits)) * (_ROCK_BYTES + _VALUE_BYTES * columns)
     pictures = sum(one.picture.size_bytes for one in portraits) * 4 / 3
     marks = sum(len(mark.outline) / 2 for one in portraits for mark in one.picture.marks)

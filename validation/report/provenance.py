@@ -9,10 +9,10 @@ _PACKAGES = ("rockshape", "numpy", "scipy", "opencv-python-headless", "scikit-im
 
 
 def versions() -> dict[str, str]:
-    """Return the versions that can move a score."""
+    """Versions that can move a score."""
     return {"python": platform.python_version()} | {name: version(name) for name in _PACKAGES}
 
 
 def seeds(run: Run) -> dict[str, int]:
-    """Return the first seed of each experiment."""
+    """First seed of each experiment."""
     return {experiment.name: experiment.seed for experiment in run.suite.experiments}

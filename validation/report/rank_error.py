@@ -8,7 +8,7 @@ from validation.scores.expectations import Claim
 
 
 def usable(records: pd.DataFrame, claim: Claim) -> pd.DataFrame:
-    """Return the records that a claim is judged on: eligible, measured, and with truth."""
+    """Records that a claim is judged on: eligible, measured, and with truth."""
     own = records["experiment"].eq(claim.experiment) & records["method"].eq(claim.method)
     own &= records["series"].eq(claim.series) & records["eligible"].astype(bool)
     held = records[own]
@@ -19,7 +19,7 @@ def usable(records: pd.DataFrame, claim: Claim) -> pd.DataFrame:
 
 
 def ranks_off(records: pd.DataFrame, claim: Claim) -> dict[int, int]:
-    """Return by how many ranks each usable record is off within its view, by its index."""
+    """By how many ranks each usable record is off within its view, by its index."""
     own = usable(records, claim)
     views = own.groupby(["scene", "view"])
     off = (views[claim.measure].rank() - views[claim.truth].rank()).abs()
@@ -27,7 +27,7 @@ def ranks_off(records: pd.DataFrame, claim: Claim) -> dict[int, int]:
 
 
 def farthest(records: pd.DataFrame, claim: Claim, count: int) -> NDArray[np.intp]:
-    """Return the index of the records whose rank among all is farthest from their true one."""
+    """Index of the records whose rank among all is farthest from their true one."""
     own = usable(records, claim)
     gap = (own[claim.measure].rank(pct=True) - own[claim.truth].rank(pct=True)).abs()
     order = np.argsort(-gap.to_numpy(), kind="stable")[:count]

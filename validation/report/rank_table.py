@@ -40,13 +40,13 @@ class RankTable:
 
 
 def _ranks(values: NDArray[np.float64]) -> list[float]:
-    """Return ranks from 1 for the greatest; NaN stays NaN."""
+    """Ranks from 1 for the greatest; NaN stays NaN."""
     ranks: list[float] = stats.rankdata(-values, nan_policy="omit").tolist()
     return ranks
 
 
 def rank_table(scene: pd.DataFrame, claim: Claim) -> RankTable:
-    """Return the ranks of a measure in one scene's records.
+    """Ranks of a measure in one scene's records.
 
     In a view, the true ranks are taken among the rocks measured there, so that a missing rock does
     not shift the others.

@@ -28,7 +28,7 @@ class RockKey(NamedTuple):
 
 
 def keys_of(records: pd.DataFrame) -> list[RockKey]:
-    """Return the key of each record."""
+    """Key of each record."""
     names = ("experiment", "series", "scene", "view", "method", "instance", "rock")
     columns = (records[name].astype(object).tolist() for name in names)
     return [

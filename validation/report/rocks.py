@@ -135,7 +135,7 @@ def rock_table(
     chosen: Mapping[RockKey, Sequence[Portrait]],
     subject: Subject = ROCKS,
 ) -> RockTable:
-    """Return the chosen rocks of an experiment in the order of its scenes.
+    """Chosen rocks of an experiment in the order of its scenes.
 
     A rock has a row for each view that shows anything of it.
     """
@@ -182,7 +182,7 @@ class _Maker:
     def rock(
         self, key: RockKey, records: Sequence[tuple[int, Record]], portraits: Sequence[Portrait]
     ) -> ShownRock:
-        """Return a rock from its records and portraits."""
+        """Rock from its records and portraits."""
         first = records[0][1]
         views: dict[int, dict[str, tuple[int, Record]]] = {}
         for index, record in records:
@@ -212,7 +212,7 @@ class _Maker:
         found: Mapping[str, tuple[int, Record]],
         portrait: Portrait | None,
     ) -> ViewRow:
-        """Return a rock in one view from what each method found of it."""
+        """Rock in one view from what each method found of it."""
         first = next(iter(found.values()))[1]
         cells = []
         for column in self.columns:
@@ -236,7 +236,7 @@ def _symbol(key: RockKey, view: int) -> str:
 
 
 def _about(record: Record) -> str:
-    """Return a true rock's family and the lengths of its axes in words."""
+    """True rock's family and the lengths of its axes in words."""
     axes_m = [2.0 * _float(record.get(f"truth_axis_{axis}_m")) for axis in "abc"]
     family = record.get("family")
     parts = [family.replace("-", " ")] if isinstance(family, str) else []
@@ -246,5 +246,5 @@ def _about(record: Record) -> str:
 
 
 def _float(value: object) -> float:
-    """Return a cell's number; NaN where it is empty."""
+    """Cell's number; NaN where it is empty."""
     return float("nan") if value is None or value is pd.NA else float(str(value))

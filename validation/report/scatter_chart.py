@@ -44,7 +44,7 @@ class Plot:
 
 
 def tau_name(claim: Claim) -> str:
-    """Return the name of the score that holds a claim's order."""
+    """Name of the score that holds a claim's order."""
     return Key(claim.experiment, claim.method, claim.series, claim.measure, "tau").name
 
 
@@ -56,7 +56,7 @@ def plots(
     most_points: int,
     what: str = "rock",
 ) -> tuple[Plot, ...]:
-    """Return a chart for each claim; with more points than `most_points`, the farthest alone."""
+    """Chart for each claim; with more points than `most_points`, the farthest alone."""
     scores = {score.name: score for score in run.scores}
     return tuple(
         _plot(run, claim, shown, scores[tau_name(claim)], most_points=most_points, what=what)

@@ -50,7 +50,7 @@ def _gate(result: GateResult) -> dict[str, object]:
 
 
 def scores_json(run: Run) -> str:
-    """Return the JSON text; a value that does not exist is null."""
+    """JSON text; a value that does not exist is null."""
     document = {
         "format": FORMAT,
         "suite": run.suite.name,

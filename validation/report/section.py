@@ -29,13 +29,13 @@ class Page(Protocol[E_contra]):
     """Module of a kind that shows its experiments."""
 
     def scenes_shown(self, experiment: E_contra, /) -> int | None:
-        """Return how many first scenes have their rocks shown one by one before all others.
+        """How many first scenes have their rocks shown one by one before all others.
 
         None where no rock of such an experiment is shown by itself.
         """
 
     def section(self, run: Run, experiment: E_contra, room: Room, /) -> Markup:
-        """Return the section with the id `at-` and the experiment's name; empty for none."""
+        """Section with the id `at-` and the experiment's name; empty for none."""
 
 
 def page_of(experiment: Experiment) -> Page[Experiment]:

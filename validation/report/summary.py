@@ -16,7 +16,7 @@ def _bound(gate: Gate) -> str:
 
 
 def summary_markdown(run: Run) -> str:
-    """Return the verdict, the gates and the scores as Markdown tables."""
+    """Verdict, the gates and the scores as Markdown tables."""
     passed = sum(gate.passed for gate in run.gates)
     verdict = "passed" if run.passed else "FAILED"
     lines = [

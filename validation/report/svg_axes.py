@@ -20,18 +20,18 @@ class Axis:
     end: float  # place of high
 
     def places(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the picture's coordinates of values."""
+        """Picture's coordinates of values."""
         low, high, at = self.low, self.high, values
         if self.log:
             low, high, at = float(np.log10(low)), float(np.log10(high)), np.log10(values)
         return self.start + (self.end - self.start) * (at - low) / (high - low)
 
     def place(self, value: float) -> float:
-        """Return the picture's coordinate of a value."""
+        """Picture's coordinate of a value."""
         return float(self.places(np.array([value]))[0])
 
     def ticks(self) -> list[float]:
-        """Return round values inside the axis."""
+        """Round values inside the axis."""
         if self.log:
             lowest, highest = np.floor(np.log10(self.low)), np.ceil(np.log10(self.high))
             decades = 10.0 ** np.arange(lowest, highest + 1)
@@ -48,7 +48,7 @@ class Axis:
 def axis_of(
     values: NDArray[np.float64], start: float, end: float, *, straight: bool = False
 ) -> Axis:
-    """Return the axis that holds all the values, with a little room at both ends.
+    """Axis that holds all the values, with a little room at both ends.
 
     It is logarithmic where values span a great factor, unless it is to be straight.
     """
@@ -60,7 +60,7 @@ def axis_of(
 
 
 def grid_rows(up: Axis, left: float, right: float) -> str:
-    """Return the horizontal lines of a vertical axis, each with its value at the left."""
+    """Horizontal lines of a vertical axis, each with its value at the left."""
     return "".join(
         f'<path class="grid" d="M{left} {up.place(tick):.1f}H{right}"/>'
         f'<text x="{left - 6}" y="{up.place(tick) + 4:.1f}" class="end">{tick_text(tick)}</text>'
@@ -69,7 +69,7 @@ def grid_rows(up: Axis, left: float, right: float) -> str:
 
 
 def tick_text(value: float) -> str:
-    """Return a mark's number, at most seven characters wide."""
+    """Mark's number, at most seven characters wide."""
     if value == 0 or 1e-3 <= abs(value) < 1e4:
         return f"{value:.3g}".replace("-", "−")
     digits, exponent = f"{value:.1e}".split("e")

@@ -14,7 +14,7 @@ _SHARED = "validation.report"
 
 
 def _breakable(name: str) -> Markup:
-    """Return a score's name that a line may break after a dot or an underscore."""
+    """Score's name that a line may break after a dot or an underscore."""
     return Markup(str(escape(name)).replace(".", ".<wbr>").replace("_", "_<wbr>"))
 
 
@@ -38,7 +38,7 @@ def _environment(packages: tuple[str, ...]) -> Environment:
 
 
 def render(name: str, *packages: str, **values: object) -> Markup:
-    """Return a template of the first package that has it in its folder `templates`.
+    """Template of the first package that has it in its folder `templates`.
 
     After those named come the templates that all kinds share.
     """

@@ -36,7 +36,7 @@ class Statistic:
 
 
 def tau(pairs: Pairs) -> Estimate:
-    """Return Kendall's τ_b of pooled pairs, ready to be weighted by rock."""
+    """Kendall's τ_b of pooled pairs, ready to be weighted by rock."""
     return Estimate(tau_b(pairs), pairs.decided, pairs.rocks, lambda w: tau_b(pairs, w))
 
 
@@ -47,7 +47,7 @@ def _share(pairs: Pairs) -> Estimate:
 
 
 def weighted_mean(values: NDArray[np.float64]) -> Estimate:
-    """Return the mean of the finite values, one value a rock."""
+    """Mean of the finite values, one value a rock."""
     values = values[np.isfinite(values)]
     if values.size == 0:
         return Estimate(float("nan"), 0)

@@ -8,7 +8,7 @@ from validation.statistics import Block
 
 
 def blocks_of(records: pd.DataFrame, claim: Claim) -> tuple[Block, ...]:
-    """Return a block for each scene of the claim's experiment, series and method.
+    """Block for each scene of the claim's experiment, series and method.
 
     Only rocks that the view shows well enough (`eligible`) count; a rock that was not found, or
     whose measure is NaN, is NaN. Rocks without the truth in question are left out. The truth is

@@ -8,7 +8,7 @@ from validation.scores.titles import title_of_claim, unit_of
 
 
 def define(claim: Claim, statistic: Statistic) -> Definition:
-    """Return the score of a claim's blocks; a statistic without a unit has the measure's."""
+    """Score of a claim's blocks; a statistic without a unit has the measure's."""
     return Definition(
         key=Key(claim.experiment, claim.method, claim.series, claim.measure, statistic.key),
         title=f"{title_of_claim(claim)}: {statistic.title}",

@@ -44,7 +44,7 @@ class Claim:
 def columns_of(
     experiment: MeasuredExperiment, measures: Sequence[MeasureSpec]
 ) -> Iterator[JudgedColumn]:
-    """Yield the columns that are judged: those of the methods, then those of other measures."""
+    """Columns that are judged: those of the methods, then those of other measures."""
     for method in experiment.methods:
         for measure in find_method(method).measures:
             if measure.expected_trait is not None:

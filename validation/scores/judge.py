@@ -40,16 +40,16 @@ class Judge(Protocol[E_contra]):
         """Measurers of known verdict."""
 
     def claims(self, experiment: E_contra, measures: Measures, /) -> tuple[Claim, ...]:
-        """Return what each column is expected to rise with, held to the truth of the rocks."""
+        """Trait that each column is expected to rise with, held to the truth of the rocks."""
 
     def view_claims(self, experiment: E_contra, measures: Measures, /) -> tuple[Claim, ...]:
-        """Return the same, held to what each view truly shows."""
+        """Trait that each column is expected to rise with, held to what each view truly shows."""
 
     def ranked_claims(self, experiment: E_contra, measures: Measures, /) -> tuple[Claim, ...]:
-        """Return the claims whose columns the leaderboard ranks."""
+        """Claims whose columns the leaderboard ranks."""
 
     def definitions(self, experiment: E_contra, measures: Measures, /) -> tuple[Definition, ...]:
-        """Return the scores; they are known before anything is measured."""
+        """Scores; they are known before anything is measured."""
 
 
 def judge_of_kind(kind: Kind) -> Judge[Experiment]:

@@ -91,7 +91,7 @@ class Definition:
 
 
 def score_rng(name: str) -> np.random.Generator:
-    """Return the draws of a score's bootstrap, which depend on its name alone."""
+    """Draws of a score's bootstrap, which depend on its name alone."""
     return np.random.default_rng([BOOTSTRAP_SEED, zlib.crc32(name.encode())])
 
 

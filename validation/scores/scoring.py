@@ -27,7 +27,7 @@ __all__ = [
 
 
 def definitions(suite: Suite) -> tuple[Definition, ...]:
-    """Return all scores of a suite; they are known before anything is measured."""
+    """All scores of a suite; they are known before anything is measured."""
     return tuple(
         definition
         for experiment in suite.experiments
@@ -36,17 +36,17 @@ def definitions(suite: Suite) -> tuple[Definition, ...]:
 
 
 def claims_of(suite: Suite, experiment: Experiment) -> tuple[Claim, ...]:
-    """Return the claims on the rocks of an experiment."""
+    """Claims on the rocks of an experiment."""
     return judge_of(experiment).claims(experiment, suite.measures)
 
 
 def all_claims(suite: Suite) -> tuple[Claim, ...]:
-    """Return the claims on the rocks of all experiments."""
+    """Claims on the rocks of all experiments."""
     return tuple(c for experiment in suite.experiments for c in claims_of(suite, experiment))
 
 
 def all_view_claims(suite: Suite) -> tuple[Claim, ...]:
-    """Return the claims on what views truly show, of all experiments."""
+    """Claims on what views truly show, of all experiments."""
     return tuple(
         claim
         for experiment in suite.experiments
@@ -55,7 +55,7 @@ def all_view_claims(suite: Suite) -> tuple[Claim, ...]:
 
 
 def score_names(suite: Suite) -> frozenset[str]:
-    """Return the names of all scores of a suite."""
+    """Names of all scores of a suite."""
     return frozenset(definition.name for definition in definitions(suite))
 
 
@@ -65,14 +65,14 @@ def score_records(suite: Suite, records: pd.DataFrame) -> tuple[Score, ...]:
 
 
 def score_values(suite: Suite, records: pd.DataFrame) -> dict[str, float]:
-    """Return the values alone, by name, without the cost of the intervals."""
+    """Values alone, by name, without the cost of the intervals."""
     return {d.name: d.compute(records).value for d in definitions(suite)}
 
 
 def gate_scores(
     suite: Suite, gates: Sequence[Gate], records: pd.DataFrame
 ) -> dict[str, ScoreValue]:
-    """Return what the gates ask for: values, and the intervals of those that ask for an end."""
+    """What the gates ask for: values, and the intervals of those that ask for an end."""
     wanted = {gate.score: False for gate in gates}
     for gate in gates:
         wanted[gate.score] |= gate.end != "value"

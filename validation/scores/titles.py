@@ -7,13 +7,13 @@ REFERENCE = "paper"  # the method whose name scores and titles leave out
 
 
 def title_of(column: str) -> str:
-    """Return the title of a measure's column, or the column itself where no measure has it."""
+    """Title of a measure's column, or the column itself where no measure has it."""
     measure = measure_of(column)
     return column if measure is None else measure.title
 
 
 def title_of_claim(claim: Claim) -> str:
-    """Return the title of the claim's column, with its method unless that is the paper's."""
+    """Title of the claim's column, with its method unless that is the paper's."""
     own = methods()[claim.method].measures if claim.method in methods() else ()
     titles = [measure.title for measure in own if measure.column == claim.measure]
     title = titles[0] if titles else claim.measure
@@ -21,6 +21,6 @@ def title_of_claim(claim: Claim) -> str:
 
 
 def unit_of(column: str) -> str:
-    """Return the unit of a measure's column, empty for a pure number."""
+    """Unit of a measure's column, empty for a pure number."""
     measure = measure_of(column)
     return "" if measure is None else measure.unit

@@ -58,7 +58,7 @@ def _gated(suite: Suite, gates: Sequence[Gate], feed: _Feed) -> tuple[GateResult
 
 
 def self_checks(suite: Suite, gates: Sequence[Gate], records: pd.DataFrame) -> tuple[Check, ...]:
-    """Return what the gates say of the truth, of other rocks' truth and of other rocks' values.
+    """What the gates say of the truth, of other rocks' truth and of other rocks' values.
 
     Gates on a level are left out: the truth is not in the measure's unit. Without any other there
     is no check.

@@ -13,7 +13,7 @@ _TRUE = {"row": "truth_row", "col": "truth_col", "axis_a_m": "truth_axis_a_m"}
 
 
 def found_all(records: pd.DataFrame) -> pd.DataFrame:
-    """Return a copy in which every true rock is found, with its own mask, and nothing else."""
+    """Copy in which every true rock is found, with its own mask, and nothing else."""
     fed = records[records["status"] != "extra"].copy()
     rocks = fed["status"] != "view"  # a view without rocks has a row too
     fed.loc[rocks, "status"] = "matched"
@@ -25,7 +25,7 @@ def found_all(records: pd.DataFrame) -> pd.DataFrame:
 
 
 def missed_all(records: pd.DataFrame) -> pd.DataFrame:
-    """Return a copy in which no found rock is where a true one is."""
+    """Copy in which no found rock is where a true one is."""
     fed = records.copy()
     found = fed["status"] == "matched"
     fed.loc[found, "status"] = "missed"
@@ -34,7 +34,7 @@ def missed_all(records: pd.DataFrame) -> pd.DataFrame:
 
 
 def claimed_truth(records: pd.DataFrame, claims: Sequence[Claim]) -> pd.DataFrame:
-    """Return records in which every rock is found and every column is the truth it claims."""
+    """Records in which every rock is found and every column is the truth it claims."""
     fed = found_all(records)
     for claim in claims:
         rows = fed["experiment"] == claim.experiment
@@ -45,7 +45,7 @@ def claimed_truth(records: pd.DataFrame, claims: Sequence[Claim]) -> pd.DataFram
 
 
 def shuffled_truth(records: pd.DataFrame, rng: np.random.Generator) -> pd.DataFrame:
-    """Return the oracle's records with each scene's truth dealt out anew among its rocks.
+    """Oracle's records with each scene's truth dealt out anew among its rocks.
 
     All views and methods of a scene get the same deal, so that agreement between views stays
     perfect and only the order against the truth is lost.
@@ -63,7 +63,7 @@ def shuffled_truth(records: pd.DataFrame, rng: np.random.Generator) -> pd.DataFr
 def mixed_values(
     records: pd.DataFrame, claims: Sequence[Claim], rng: np.random.Generator
 ) -> pd.DataFrame:
-    """Return the records with each view's measured values dealt out anew among its rocks.
+    """Records with each view's measured values dealt out anew among its rocks.
 
     The values are as they were measured, but no rock keeps its own from one view to the next: a
     gate on how well a rock's value holds must fail.

@@ -18,7 +18,7 @@ from validation.suite.registry import kind_named
 def _by_experiment(
     records: pd.DataFrame, feed: Callable[[Feeds, pd.DataFrame], pd.DataFrame]
 ) -> pd.DataFrame:
-    """Return all records, each experiment's as its kind feeds them, in the order that they had."""
+    """All records, each experiment's as its kind feeds them, in the order that they had."""
     parts = [
         feed(judge_of_kind(kind_named(str(own["kind"].iloc[0]))).FEEDS, own)
         for _, own in records.groupby("experiment", sort=True)
@@ -27,19 +27,19 @@ def _by_experiment(
 
 
 def oracle(records: pd.DataFrame, claims: Sequence[Claim]) -> pd.DataFrame:
-    """Return records in which every rock is found and every measure is the truth it claims."""
+    """Records in which every rock is found and every measure is the truth it claims."""
     return _by_experiment(records, lambda feeds, own: feeds.oracle(own, claims))
 
 
 def shuffled(
     records: pd.DataFrame, claims: Sequence[Claim], *, rng: np.random.Generator
 ) -> pd.DataFrame:
-    """Return the oracle's records with the truth of other rocks, or where none is claimed, lost."""
+    """Oracle's records with the truth of other rocks, or where none is claimed, lost."""
     return _by_experiment(oracle(records, claims), lambda feeds, own: feeds.shuffled(own, rng))
 
 
 def mixed(
     records: pd.DataFrame, claims: Sequence[Claim], *, rng: np.random.Generator
 ) -> pd.DataFrame:
-    """Return the records with the values of other rocks, or where none is claimed, lost."""
+    """Records with the values of other rocks, or where none is claimed, lost."""
     return _by_experiment(records, lambda feeds, own: feeds.mixed(own, claims, rng))

@@ -40,5 +40,5 @@ class Block:
         return np.broadcast_to(self.truth, self.values.shape)
 
     def complete(self) -> NDArray[np.float64]:
-        """Return the values (views, complete rocks) of the rocks measured in every view."""
+        """Values (views, complete rocks) of the rocks measured in every view."""
         return self.values[:, np.isfinite(self.values).all(axis=0)]

@@ -63,7 +63,7 @@ class Concordance:
         return self.weighted(np.ones(self.rocks))
 
     def weighted(self, weights: Floats) -> float:
-        """Return W with one weight a rock: how often a draw with replacement took it.
+        """W with one weight a rock: how often a draw with replacement took it.
 
         A copy of a rock ties with it in every view, which the correction for ties takes out.
         """
@@ -76,7 +76,7 @@ class Concordance:
         return shared / total if total > 0 else math.nan
 
     def p_value(self) -> float:
-        """Return the chance of such a W or a greater one if every view ranked at random.
+        """Chance of such a W or a greater one if every view ranked at random.
 
         Exact, over all arrangements of the ranks of all views but the first, up to
         MAX_ARRANGEMENTS of them; beyond, (k + 1)/(N + 1) of N random ones (Phipson and Smyth
@@ -105,13 +105,13 @@ class Concordance:
 
 
 def _shared(ranks: Floats) -> Floats:
-    """Return the squared deviations of the rank sums of (…, views, rocks)."""
+    """Squared deviations of the rank sums of (…, views, rocks)."""
     shared: Floats = (ranks.sum(axis=-2) ** 2).sum(axis=-1)
     return shared
 
 
 def _every(ranks: Floats) -> list[float]:
-    """Return the squared deviations of the rank sums of every arrangement of (views, rocks)."""
+    """Squared deviations of the rank sums of every arrangement of (views, rocks)."""
     first, *others = ranks
     return [
         float(_shared(np.vstack([first, *dealt])))
@@ -120,7 +120,7 @@ def _every(ranks: Floats) -> list[float]:
 
 
 def concordance(blocks: Sequence[Block]) -> Concordance:
-    """Return Kendall's W with the correction for ties.
+    """Kendall's W with the correction for ties.
 
     W = 12 S / (m² (n³ − n) − m Σ T), with m views, n rocks, S the squared deviations of the rank
     sums and T = Σ (t³ − t) over the ties of a view (Kendall and Babington Smith 1939). The
@@ -131,5 +131,5 @@ def concordance(blocks: Sequence[Block]) -> Concordance:
 
 
 def kendall_w(blocks: Sequence[Block]) -> float:
-    """Return W alone, as `concordance` defines it."""
+    """W alone, as `concordance` defines it."""
     return concordance(blocks).w

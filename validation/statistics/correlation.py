@@ -40,16 +40,16 @@ class _MeanSquares:
     k: int
 
     def consistency(self) -> float:
-        """Return ICC(3,1)."""
+        """ICC(3,1)."""
         return _ratio(self.rocks - self.error, self.rocks + (self.k - 1) * self.error)
 
     def agreement(self) -> float:
-        """Return ICC(2,1)."""
+        """ICC(2,1)."""
         shift = self.k * (self.views - self.error) / self.n
         return _ratio(self.rocks - self.error, self.rocks + (self.k - 1) * self.error + shift)
 
     def consistency_interval(self) -> Interval:
-        """Return the exact F interval of ICC(3,1) (Shrout and Fleiss 1979)."""
+        """Exact F interval of ICC(3,1) (Shrout and Fleiss 1979)."""
         if self.error <= 0:
             return _NO_INTERVAL
         f = self.rocks / self.error
@@ -58,7 +58,7 @@ class _MeanSquares:
         return (low - 1) / (low + self.k - 1), (high - 1) / (high + self.k - 1)
 
     def agreement_interval(self) -> Interval:
-        """Return the F interval of ICC(2,1) with Satterthwaite's freedom (McGraw and Wong 1996)."""
+        """F interval of ICC(2,1) with Satterthwaite's freedom (McGraw and Wong 1996)."""
         rho = self.agreement()
         if self.error <= 0 or not rho < 1:
             return _NO_INTERVAL
@@ -82,7 +82,7 @@ def _ratio(part: float, whole: float) -> float:
 
 
 def intraclass_correlation(blocks: Sequence[Block]) -> IntraclassCorrelation:
-    """Return ICC(2,1) and ICC(3,1) of the logarithms of the values (Shrout and Fleiss 1979).
+    """ICC(2,1) and ICC(3,1) of the logarithms of the values (Shrout and Fleiss 1979).
 
     With n rocks, k views and the two-way mean squares of rocks (MSR), views (MSC) and error (MSE):
     ICC(2,1) = (MSR − MSE)/(MSR + (k − 1) MSE + k (MSC − MSE)/n) and

@@ -16,7 +16,7 @@ def bootstrap_interval(
     rng: np.random.Generator,
     replicates: int = REPLICATES,
 ) -> tuple[float, float]:
-    """Return the 95 % percentile interval of a statistic of weighted rocks (Efron 1979).
+    """95 % percentile interval of a statistic of weighted rocks (Efron 1979).
 
     `statistic` takes one weight a rock, (count,): how often a draw with replacement took it. A
     pair of a rock with its own copy says nothing and does not exist. A statistic that is perfect

@@ -64,7 +64,7 @@ class Tallies:
     agreed: NDArray[np.float64]  # (couples,) concordant less discordant pairs
 
     def sums(self, rock_weights: NDArray[np.float64] | None) -> tuple[float, float, float]:
-        """Return the sums of expected, found and agreed, a pair weighing its rocks' product."""
+        """Sums of expected, found and agreed, a pair weighing its rocks' product."""
         if rock_weights is None:
             return float(self.expected.sum()), float(self.found.sum()), float(self.agreed.sum())
         weights = rock_weights[self.first] * rock_weights[self.second]
@@ -105,7 +105,7 @@ def _offsets(blocks: Sequence[Block]) -> list[int]:
 def within_views(
     blocks: Sequence[Block], *, truth_margin: float = 0.0, value_margin: float = 0.0
 ) -> Pairs:
-    """Return all pairs of rocks of one scene seen in one view, against the true order.
+    """All pairs of rocks of one scene seen in one view, against the true order.
 
     A true difference of at most `truth_margin` expects no order, and a measured one of at most
     `value_margin` is a tie. Pairs with an unmeasured rock are left out.
@@ -128,7 +128,7 @@ def within_views(
 def across_views(
     blocks: Sequence[Block], *, truth_margin: float = 0.0, value_margin: float = 0.0
 ) -> Pairs:
-    """Return all pairs (rock i in view k, rock j in view l) of a scene, k = l included.
+    """All pairs (rock i in view k, rock j in view l) of a scene, k = l included.
 
     With n rocks and m views these are m² n (n − 1)/2 pairs: 48 for the paper's tables 1 and 2,
     27 for table 3. Margins as in `within_views`.
@@ -151,7 +151,7 @@ def across_views(
 
 
 def between_views(blocks: Sequence[Block]) -> Pairs:
-    """Return the pairs of rocks whose order in one view is held against that in another.
+    """Pairs of rocks whose order in one view is held against that in another.
 
     No truth enters: τ_b of these pairs says whether the views agree with each other.
     """
@@ -167,7 +167,7 @@ def between_views(blocks: Sequence[Block]) -> Pairs:
 
 
 def tau_b(pairs: Pairs, rock_weights: NDArray[np.float64] | None = None) -> float:
-    """Return Kendall's τ_b of pooled pairs.
+    """Kendall's τ_b of pooled pairs.
 
     τ_b = Σ w e f / √(Σ w e² · Σ w f²) with e and f the expected and the found sign (Kendall 1945,
     "The treatment of ties in ranking problems"). For one block of one view it is the usual τ_b;
@@ -180,7 +180,7 @@ def tau_b(pairs: Pairs, rock_weights: NDArray[np.float64] | None = None) -> floa
 
 
 def share_in_order(pairs: Pairs, rock_weights: NDArray[np.float64] | None = None) -> float:
-    """Return the share of pairs in the right order; a measured tie counts one half.
+    """Share of pairs in the right order; a measured tie counts one half.
 
     Pairs without an expected order are left out; NaN when none is left.
     """

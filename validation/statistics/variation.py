@@ -10,7 +10,7 @@ from validation.statistics.block import Block
 
 
 def divide_by_view_means(blocks: Sequence[Block]) -> tuple[Block, ...]:
-    """Return blocks whose values are divided by their view's mean over the complete rocks.
+    """Blocks whose values are divided by their view's mean over the complete rocks.
 
     It takes out what moves all rocks of a view together. Views whose mean is not positive become
     NaN.
@@ -27,7 +27,7 @@ def divide_by_view_means(blocks: Sequence[Block]) -> tuple[Block, ...]:
 
 
 def coefficients_of_variation(blocks: Sequence[Block]) -> NDArray[np.float64]:
-    """Return one coefficient of variation across views for each rock of all blocks.
+    """One coefficient of variation across views for each rock of all blocks.
 
     CV = s/x̄ with s the sample standard deviation (n − 1) over the views that show the rock. Shape
     (rocks,), in the blocks' order; NaN for a rock that fewer than two views show, and where the
@@ -46,7 +46,7 @@ def coefficients_of_variation(blocks: Sequence[Block]) -> NDArray[np.float64]:
 
 
 def rank_moves(blocks: Sequence[Block]) -> NDArray[np.float64]:
-    """Return how far each rock's rank moves between two views, as a share of the ranking.
+    """How far each rock's rank moves between two views, as a share of the ranking.
 
     All rock views of a block are ranked together, as in the paper's table 5; a rock's move is the
     mean difference of its ranks over the pairs of views that show it, over the number of rock

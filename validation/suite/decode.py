@@ -14,7 +14,7 @@ _T = TypeVar("_T")
 
 
 def decode(table: object, record: type[_T], *, where: str, path: str = "") -> _T:
-    """Return a table as a record; `path` is the table's own within the file.
+    """Table as a record; `path` is the table's own within the file.
 
     Raises:
         InputError: a key or value that is not allowed; the message names file, path and key.
@@ -26,7 +26,7 @@ def decode(table: object, record: type[_T], *, where: str, path: str = "") -> _T
 
 
 def decode_experiment(table: Mapping[str, Any], *, where: str, path: str) -> Experiment:
-    """Return a suite's table of an experiment as the spec of its kind, also by an older name.
+    """Suite's table of an experiment as the spec of its kind, also by an older name.
 
     Raises:
         InputError: no such kind, or a key or value that is not allowed.

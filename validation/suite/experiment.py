@@ -41,19 +41,19 @@ class Experiment(
         raise NotImplementedError(f"{type(self).__name__}.units")
 
     def dependencies(self, series: str, scene: int) -> dict[str, Any]:  # noqa: ARG002
-        """Return everything in the spec that the result of a unit depends on, as plain values."""
+        """Everything in the spec that the result of a unit depends on, as plain values."""
         return self.plain(without=("title",))
 
     def settled(self) -> Self:
-        """Return the spec with what depends on the machine, such as the renderer, chosen."""
+        """Spec with what depends on the machine, such as the renderer, chosen."""
         return self
 
     def measured_by(self, methods: tuple[str, ...]) -> Self:  # noqa: ARG002
-        """Return the spec measured by these methods; itself where it measures nothing."""
+        """Spec measured by these methods; itself where it measures nothing."""
         return self
 
     def first(self, scenes: int) -> Self:  # noqa: ARG002
-        """Return the spec with at most so many scenes, where a scene takes time."""
+        """Spec with at most so many scenes, where a scene takes time."""
         return self
 
     def check(self) -> None:
@@ -64,7 +64,7 @@ class Experiment(
         """
 
     def plain(self, *, without: Sequence[str]) -> dict[str, Any]:
-        """Return the spec as plain values but for some of its keys."""
+        """Spec as plain values but for some of its keys."""
         spec: dict[str, Any] = msgspec.to_builtins(self)
         return {key: value for key, value in spec.items() if key not in without}
 
@@ -82,7 +82,7 @@ class MeasuredExperiment(Experiment, frozen=True, kw_only=True, tag="measured"):
             )
 
     def measured_by(self, methods: tuple[str, ...]) -> Self:
-        """Return the spec measured by these methods."""
+        """Spec measured by these methods."""
         return msgspec.structs.replace(self, methods=methods)
 
     def check(self) -> None:

@@ -64,7 +64,7 @@ class GateFile(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
 
 
 def gates_on(gates: Sequence[Gate], known: Collection[str]) -> tuple[Gate, ...]:
-    """Return the gates whose scores are known: those of the methods that are run."""
+    """Gates whose scores are known: those of the methods that are run."""
     return tuple(gate for gate in gates if gate.score in known)
 
 

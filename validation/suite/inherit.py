@@ -8,7 +8,7 @@ Table = dict[str, Any]
 
 
 def resolve_likes(table: Table, *, where: str) -> Table:
-    """Return a suite's table in which no experiment says `like` any more.
+    """Suite's table in which no experiment says `like` any more.
 
     An experiment with `like = "NAME"` has all that the experiment of that name, which stands before
     it, has; what it says itself replaces that, key by key within tables.

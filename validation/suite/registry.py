@@ -19,7 +19,7 @@ _registered: dict[str, Kind] = {}
 
 @cache
 def installed_kinds() -> dict[str, Kind]:
-    """Return the kinds of this package's folders, then those of installed plug-ins."""
+    """Kinds of this package's folders, then those of installed plug-ins."""
     spec = find_spec(_PACKAGE)
     folders = pkgutil.iter_modules(spec.submodule_search_locations if spec else None)
     kinds: list[Kind] = [
@@ -30,7 +30,7 @@ def installed_kinds() -> dict[str, Kind]:
 
 
 def kinds() -> dict[str, Kind]:
-    """Return all kinds by name; one that is registered replaces a found one of its name."""
+    """All kinds by name; one that is registered replaces a found one of its name."""
     return installed_kinds() | _registered
 
 
@@ -45,7 +45,7 @@ def register_kind(kind: Kind) -> Kind:
 
 
 def kind_named(name: str) -> Kind:
-    """Return the kind of a name or an alias.
+    """Kind of a name or an alias.
 
     Raises:
         InputError: no such kind.
@@ -60,7 +60,7 @@ def kind_named(name: str) -> Kind:
 
 
 def kind_of_table(table: Table) -> Kind:
-    """Return the kind of a suite's table, also where it has an older name.
+    """Kind of a suite's table, also where it has an older name.
 
     Raises:
         InputError: no such kind.
@@ -73,7 +73,7 @@ def kind_of_table(table: Table) -> Kind:
 
 
 def kind_of(experiment: Experiment) -> Kind:
-    """Return the kind of a spec.
+    """Kind of a spec.
 
     Raises:
         InputError: its kind is not registered in this process.

@@ -18,7 +18,7 @@ def check_scene_is_single(scene: SceneSpec) -> None:
 
 
 def with_renderer(scene: SceneSpec) -> SceneSpec:
-    """Return the scene with the renderer that this machine has in place of `auto`.
+    """Scene with the renderer that this machine has in place of `auto`.
 
     Raises:
         MissingBackendError: the machine lacks it.

@@ -50,7 +50,7 @@ class _SuiteTable(Struct, forbid_unknown_fields=True, kw_only=True):
 
 
 def as_suite(table: Mapping[str, Any], *, where: str) -> Suite:
-    """Return plain tables, as a suite's file or a run's scores.json has them, as a suite.
+    """Plain tables, as a suite's file or a run's scores.json has them, as a suite.
 
     Raises:
         InputError: a key or value that is not allowed, or a plug-in that cannot be imported.

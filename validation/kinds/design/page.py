@@ -8,9 +8,9 @@ from validation.report.section import Room
 
 
 def scenes_shown(experiment: DesignExperiment) -> None:
-    """Return none: no pictures are kept of so many cells."""
+    """None: no pictures are kept of so many cells."""
 
 
 def section(run: Run, experiment: DesignExperiment, room: Room) -> Markup:  # noqa: ARG001
-    """Return nothing."""
+    """No section."""
     return Markup("")

@@ -12,7 +12,7 @@ from validation.kinds.design.spec import DesignExperiment
 
 
 def near_spec(experiment: DesignExperiment, scene: int) -> SceneSpec:
-    """Return the spec of scene number `scene` at the least distance, where its rocks are placed."""
+    """Spec of scene number `scene` at the least distance, where its rocks are placed."""
     camera = msgspec.structs.replace(experiment.scene.camera, distance_m=experiment.distances_m[0])
     return msgspec.structs.replace(
         experiment.scene, seed=experiment.seed + scene, camera=camera, sun=experiment.suns[0]
@@ -20,7 +20,7 @@ def near_spec(experiment: DesignExperiment, scene: int) -> SceneSpec:
 
 
 def scenes_of(spec: SceneSpec, experiment: DesignExperiment) -> tuple[tuple[SceneModel, ...], ...]:
-    """Return the scene for each distance and roll, (distances, rolls).
+    """Scene for each distance and roll, (distances, rolls).
 
     At s times the least distance the rocks lie s times as far from the centre of the level ground:
     the line from a station to a rock keeps its azimuth, and its elevation but for what the height

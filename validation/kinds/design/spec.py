@@ -60,9 +60,9 @@ class DesignExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="desig
         return tuple(("", scene) for scene in range(self.scenes))
 
     def dependencies(self, series: str, scene: int) -> dict[str, Any]:  # noqa: ARG002
-        """Return what a unit depends on."""
+        """What a unit depends on."""
         return self.plain(without=("title", "scenes"))
 
     def settled(self) -> Self:
-        """Return the spec with the renderer of this machine."""
+        """Spec with the renderer of this machine."""
         return msgspec.structs.replace(self, scene=with_renderer(self.scene))

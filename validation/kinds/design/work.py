@@ -55,7 +55,7 @@ def run(unit: Unit[DesignExperiment]) -> UnitResult:
 
 
 def shots(spec: SceneSpec, experiment: DesignExperiment) -> Iterator[Shot]:
-    """Yield every cell's shot; each has chances of its own for its sensor."""
+    """Every cell's shot; each has chances of its own for its sensor."""
     backend = choose_backend(spec.renderer)
     number = 0
     for distance, rolled in enumerate(scenes_of(spec, experiment)):
@@ -100,7 +100,7 @@ def _under(view: RenderedView, light: NDArray[np.float32]) -> RenderedView:
 
 
 def _truth(view: SceneView, experiment: DesignExperiment, rendered: RenderedView) -> pd.DataFrame:
-    """Return one row a rock; `eligible` rocks are seen whole by both eyes.
+    """One row a rock; `eligible` rocks are seen whole by both eyes.
 
     Nothing but the causes in question may move them, and a rock that the frame, another rock or
     the edge of the right eye's frame cuts has another outline.
@@ -154,7 +154,7 @@ def _measured(unit: Unit[DesignExperiment], shot: Shot) -> pd.DataFrame:
 def true_rocks(
     observation: Observation, instances: NDArray[np.int32], *, min_iou: float
 ) -> NDArray[np.int32]:
-    """Return what the published way finds, (rows, cols), without what is no rock.
+    """Rocks that the published method finds, (rows, cols), without detections that are no rock.
 
     From noisy range it takes hundreds of bumps of the noise for rocks; each would be measured for
     nothing. Its measures read a rock's mask, its range and the ground's plane, which are the same

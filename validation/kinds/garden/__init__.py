@@ -1,5 +1,7 @@
 """Garden comparison: the paper's tables 4 and 5."""
 
+from typing import TYPE_CHECKING
+
 from validation.kinds.garden.spec import GardenExperiment
 from validation.suite.kind import Kind, Table
 
@@ -19,3 +21,14 @@ KIND = Kind(
     aliases=("yard",),
     adopts=_is_pan,
 )
+
+if TYPE_CHECKING:  # the modules hold what their protocols ask
+    from validation.execution.work import MeasuredWork
+    from validation.kinds.garden import judge, page
+    from validation.kinds.multiview import work
+    from validation.report.section import Page
+    from validation.scores.judge import Judge
+
+    _WORK: MeasuredWork[GardenExperiment] = work
+    _JUDGE: Judge[GardenExperiment] = judge
+    _PAGE: Page[GardenExperiment] = page

@@ -35,13 +35,13 @@ COUPLES = (
 
 
 def column_of(method: str, paper_column: str) -> str:
-    """Return the method's column of the measure that the paper's method calls so."""
+    """Method's column of the measure that the paper's method calls so."""
     titles = {measure.column: measure.title for measure in find_method(REFERENCE).measures}
     return next(m.column for m in find_method(method).measures if m.title == titles[paper_column])
 
 
 def rho_key(experiment: str, method: str, couple: Couple) -> Key:
-    """Return the score's key: both columns joined by a plus."""
+    """Score's key: both columns joined by a plus."""
     columns = (column_of(method, column) for column in couple)
     return Key(experiment, method, "", "+".join(columns), "rho")
 
@@ -71,7 +71,7 @@ def _rho(key: Key) -> Callable[[pd.DataFrame], Estimate]:
 
 
 def correlations(experiment: GardenExperiment) -> tuple[Definition, ...]:
-    """Return Spearman's ρ of the couples, by each method; an interval keeps the sample's ranks."""
+    """Spearman's ρ of the couples, by each method; an interval keeps the sample's ranks."""
     return tuple(
         Definition(
             key=(key := rho_key(experiment.name, method, couple)),
@@ -89,5 +89,5 @@ def correlations(experiment: GardenExperiment) -> tuple[Definition, ...]:
 def definitions(
     experiment: GardenExperiment, measures: Sequence[MeasureSpec]
 ) -> tuple[Definition, ...]:
-    """Return the scores of rocks seen from several views, then how far measures go together."""
+    """Scores of rocks seen from several views, then how far measures go together."""
     return (*multiview.definitions(experiment, measures), *correlations(experiment))

@@ -44,7 +44,7 @@ class MultiviewExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="mu
         return ("",) if self.sweep is None else self.sweep.steps
 
     def scene_at(self, step: str) -> SceneSpec:
-        """Return the scene of a step."""
+        """Scene of a step."""
         return self.scene if self.sweep is None else self.sweep.scene(self.scene, step)
 
     @property
@@ -62,7 +62,7 @@ class MultiviewExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="mu
         return self.pictured > 0
 
     def dependencies(self, series: str, scene: int) -> dict[str, Any]:
-        """Return what a unit depends on: the scene at its step, and which pictures are kept."""
+        """What a unit depends on: the scene at its step, and which pictures are kept."""
         plain = self.plain(without=("title", "scenes", "varied", "pictured", "sweep"))
         return plain | {
             "scene": msgspec.to_builtins(self.scene_at(series)),
@@ -71,9 +71,9 @@ class MultiviewExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="mu
         }
 
     def settled(self) -> Self:
-        """Return the spec with the renderer of this machine."""
+        """Spec with the renderer of this machine."""
         return msgspec.structs.replace(self, scene=with_renderer(self.scene))
 
     def first(self, scenes: int) -> Self:
-        """Return the spec with at most so many scenes."""
+        """Spec with at most so many scenes."""
         return msgspec.structs.replace(self, scenes=min(scenes, self.scenes))

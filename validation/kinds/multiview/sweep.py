@@ -32,7 +32,7 @@ class Sweep(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
         return tuple(_name(value) for value in self.values)
 
     def scene(self, scene: SceneSpec, step: str) -> SceneSpec:
-        """Return the scene of one step.
+        """Scene of one step.
 
         Raises:
             ValueError: the scene has no such key, or the value is not allowed there.

@@ -10,7 +10,7 @@ from validation.records.join import RecordKey
 
 
 def views(unit: Unit[MultiviewExperiment]) -> tuple[list[ViewCase], str]:
-    """Return the views of a unit's scene and the renderer."""
+    """Views of a unit's scene and the renderer."""
     experiment = unit.experiment
     spec = msgspec.structs.replace(
         experiment.scene_at(unit.series), seed=experiment.seed + unit.scene

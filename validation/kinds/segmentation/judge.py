@@ -24,7 +24,7 @@ _Value = Callable[[NDArray[Any]], float]
 def _by_scene(
     value: _Value, column: str, shown: pd.DataFrame, records: pd.DataFrame, *, count: int
 ) -> Estimate:
-    """Return a statistic of a column of the shown rows, with a weight for each scene.
+    """Statistic of a column of the shown rows, with a weight for each scene.
 
     All scenes count, shown or not, so that two runs of one suite number the same scenes alike.
     """
@@ -54,19 +54,19 @@ def _counts(status: NDArray[Any]) -> tuple[int, int, int]:
 
 
 def f1(status: NDArray[Any]) -> float:
-    """Return 2 TP/(2 TP + FN + FP)."""
+    """2 TP/(2 TP + FN + FP)."""
     matched, missed, extra = _counts(status)
     return _share(2 * matched, 2 * matched + missed + extra)
 
 
 def precision(status: NDArray[Any]) -> float:
-    """Return TP/(TP + FP)."""
+    """TP/(TP + FP)."""
     matched, _, extra = _counts(status)
     return _share(matched, matched + extra)
 
 
 def recall(status: NDArray[Any]) -> float:
-    """Return TP/(TP + FN)."""
+    """TP/(TP + FN)."""
     matched, missed, _ = _counts(status)
     return _share(matched, matched + missed)
 
@@ -97,7 +97,7 @@ def _number(column: str) -> Compute:
 
 
 def _ground(records: pd.DataFrame) -> Estimate:
-    """Return the median over views of the ground's RMS error in the range's noise."""
+    """Median over views of the ground's RMS error in the range's noise."""
     views = records.drop_duplicates(["scene", "view"])["ground_sigmas"].dropna()
     value = float(views.median()) if len(views) else float("nan")
     return Estimate(value, len(views))
@@ -164,7 +164,7 @@ def claims(
     experiment: SegmentationExperiment,  # noqa: ARG001
     measures: Sequence[MeasureSpec],  # noqa: ARG001
 ) -> tuple[Claim, ...]:
-    """Return none: a segmentation measures nothing."""
+    """None: a segmentation measures nothing."""
     return ()
 
 
@@ -175,7 +175,7 @@ def definitions(
     experiment: SegmentationExperiment,
     measures: Sequence[MeasureSpec],  # noqa: ARG001
 ) -> tuple[Definition, ...]:
-    """Return the scores of an experiment, way by way."""
+    """Scores of an experiment, way by way."""
 
     def own(series: str, compute: Compute) -> Compute:
         return lambda records: compute(
@@ -201,7 +201,7 @@ _FAULTLESS = {"boundary_px": 0.0, "split": False, "merged": False, "ground_sigma
 
 
 def _oracle(records: pd.DataFrame, claims: Sequence[Claim]) -> pd.DataFrame:  # noqa: ARG001
-    """Return records in which every rock is found to the pixel, and the ground with it."""
+    """Records in which every rock is found to the pixel, and the ground with it."""
     fed = found_all(records)
     for column, value in _FAULTLESS.items():
         fed[column] = value

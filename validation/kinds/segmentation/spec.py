@@ -50,10 +50,10 @@ class SegmentationExperiment(Experiment, frozen=True, kw_only=True, tag="segment
         return tuple(("", scene) for scene in range(self.scenes))
 
     def dependencies(self, series: str, scene: int) -> dict[str, Any]:  # noqa: ARG002
-        """Return what a unit depends on."""
+        """What a unit depends on."""
         plain = self.plain(without=("title", "scenes", "pictured"))
         return plain | {"pictured": scene < self.pictured}
 
     def settled(self) -> Self:
-        """Return the spec with the renderer of this machine."""
+        """Spec with the renderer of this machine."""
         return msgspec.structs.replace(self, scene=with_renderer(self.scene))

@@ -24,7 +24,7 @@ _FORMS = ("axis_ratio", "rectangle_ratio")  # truths of a drawn shape's form, th
 
 
 def gap_shares(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the steps between neighbours of a series as shares of the whole way.
+    """Steps between neighbours of a series as shares of the whole way.
 
     (x_{i+1} − x_i)/(x_n − x_1), shape (n − 1,), sum 1; negative where the series turns back. NaN
     when first and last are equal.
@@ -40,7 +40,7 @@ def _series(block: Block) -> NDArray[np.float64]:
 
 
 def _gap_error(blocks: Sequence[Block]) -> Estimate:
-    """Return the RMS difference between the measured and the true shares of the gaps."""
+    """RMS difference between the measured and the true shares of the gaps."""
     errors = np.concatenate(
         [np.empty(0), *(gap_shares(_series(b)) - gap_shares(b.truth) for b in blocks)]
     )
@@ -49,7 +49,7 @@ def _gap_error(blocks: Sequence[Block]) -> Estimate:
 
 
 def _error(blocks: Sequence[Block]) -> Estimate:
-    """Return the RMS difference between measure and truth, which must have one unit."""
+    """RMS difference between measure and truth, which must have one unit."""
     errors = np.concatenate([np.empty(0), *(_series(b) - b.truth for b in blocks)])
     value = float(np.sqrt((errors**2).mean())) if errors.size else float("nan")
     return Estimate(value, int(errors.size))
@@ -82,7 +82,7 @@ _ERROR = Statistic("error", "RMS difference from the true value", "1", "shapes",
 
 
 def _claim(experiment: ShapesExperiment, series: str, column: JudgedColumn) -> Claim:
-    """Return the claim on a column: a drawn shape's truths are those of its outline."""
+    """Claim on a column: a drawn shape's truths are those of its outline."""
     equals = () if column.measure is None else column.measure.equals
     truth: str = column.trait
     if column.trait == "form":
@@ -98,7 +98,7 @@ def _claim(experiment: ShapesExperiment, series: str, column: JudgedColumn) -> C
 
 
 def claims(experiment: ShapesExperiment, measures: Sequence[MeasureSpec]) -> tuple[Claim, ...]:
-    """Return the claims of measures that need no range, by series, then by method."""
+    """Claims of measures that need no range, by series, then by method."""
     columns = [
         column
         for column in columns_of(experiment, measures)
@@ -119,14 +119,14 @@ def view_claims(
     experiment: ShapesExperiment,  # noqa: ARG001
     measures: Sequence[MeasureSpec],  # noqa: ARG001
 ) -> tuple[Claim, ...]:
-    """Return none: a drawing has one view, and its truths are what it shows."""
+    """None: a drawing has one view, and its truths are what it shows."""
     return ()
 
 
 def definitions(
     experiment: ShapesExperiment, measures: Sequence[MeasureSpec]
 ) -> tuple[Definition, ...]:
-    """Return the scores of one experiment's claims; an error only where it has a meaning."""
+    """Scores of one experiment's claims; an error only where it has a meaning."""
     return tuple(
         define(claim, statistic)
         for claim in claims(experiment, measures)

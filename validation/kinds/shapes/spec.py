@@ -31,6 +31,6 @@ class ShapesExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="shape
         return drawing == 0
 
     def dependencies(self, series: str, scene: int) -> dict[str, Any]:  # noqa: ARG002
-        """Return what a unit depends on."""
+        """What a unit depends on."""
         plain = self.plain(without=("title", "drawings", "series"))
         return plain | {"pictured": self.is_pictured(scene)}

@@ -16,7 +16,7 @@ MIN_IOU = 0.5
 
 
 def views(unit: Unit[ShapesExperiment]) -> tuple[list[ViewCase], str]:
-    """Return the one view of a unit's drawing; no renderer draws it."""
+    """One view of a unit's drawing; no renderer draws it."""
     experiment = unit.experiment
     seed = experiment.seed + unit.scene
     with TemporaryDirectory(prefix="rockshape-") as parent:

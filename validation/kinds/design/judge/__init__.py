@@ -15,7 +15,7 @@ def claims(
     experiment: DesignExperiment,  # noqa: ARG001
     measures: Sequence[MeasureSpec],  # noqa: ARG001
 ) -> tuple[Claim, ...]:
-    """Return none: a design asks what moves values, not what they are."""
+    """None: a design asks what moves values, not what they are."""
     return ()
 
 

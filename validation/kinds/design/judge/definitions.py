@@ -39,7 +39,7 @@ TITLES = {
 
 
 def parts_of(cubes: Cubes) -> Floats:
-    """Return each rock's parts in the order of CAUSES, then their total, (rocks, 7); NaN: none."""
+    """Each rock's parts in the order of CAUSES, then their total, (rocks, 7); NaN: none."""
     table = np.full((len(cubes.clean), len(CAUSES) + 1), np.nan)
     for rock, cells in enumerate(zip(cubes.clean, cubes.found, cubes.noisy, strict=True)):
         parts = split(*cells)
@@ -49,7 +49,7 @@ def parts_of(cubes: Cubes) -> Floats:
 
 
 def _pooled(table: Floats, value: Callable[[Floats], float]) -> Estimate:
-    """Return a statistic of the rocks' mean row, (rocks, …); rocks that are NaN count for none."""
+    """Statistic of the rocks' mean row, (rocks, …); rocks that are NaN count for none."""
     flat = table.reshape(len(table), -1)
     known = np.asarray(np.isfinite(flat).all(axis=1))
     if not known.any():
@@ -77,7 +77,7 @@ def _cv(cubes: Cubes) -> Estimate:
 
 
 def _cv_clean(cubes: Cubes) -> Estimate:
-    """Return the same of the clean values alone, over the views with all of them."""
+    """Coefficient of variation of the clean values alone, over the views with all of them."""
     table = np.full(len(cubes.clean), np.nan)
     for rock, clean in enumerate(cubes.clean):
         whole = np.isfinite(clean).all(axis=(1, 2))
@@ -103,7 +103,7 @@ def _shared(state: str) -> Compute:
 
 
 def _measured(state: str) -> Compute:
-    """Return the share of the cells, of rocks seen whole, in which there is a value."""
+    """Share of the cells, of rocks seen whole, in which there is a value."""
 
     def compute(cubes: Cubes) -> Estimate:
         values = {CLEAN: cubes.clean, FOUND: cubes.found, NOISY: cubes.noisy}[state]
@@ -118,7 +118,7 @@ def _measured(state: str) -> Compute:
 
 
 def _blocks(cubes: Cubes, state: str) -> tuple[Block, ...]:
-    """Return a block (cells, rocks) for each scene, ranked by the rocks' clean means."""
+    """Block (cells, rocks) for each scene, ranked by the rocks' clean means."""
     values = cubes.clean if state == CLEAN else cubes.noisy
     scenes = range(0, len(cubes.clean), cubes.rocks_a_scene)
     blocks = []
@@ -206,7 +206,7 @@ def definitions(
     experiment: DesignExperiment,
     measures: Sequence[MeasureSpec],  # noqa: ARG001
 ) -> tuple[Definition, ...]:
-    """Return the scores of an experiment, method by method and measure by measure."""
+    """Scores of an experiment, method by method and measure by measure."""
     return tuple(
         _definition(experiment, method, measure, statistic)
         for method in experiment.methods

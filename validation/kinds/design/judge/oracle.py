@@ -14,7 +14,7 @@ _VIEW = ["experiment", "scene", "instance", "method", "view"]
 
 
 def knowing(records: pd.DataFrame, claims: Sequence[Claim] = ()) -> pd.DataFrame:  # noqa: ARG001
-    """Return records of a designed experiment in which nothing but the view moves a rock's value.
+    """Records of a designed experiment in which nothing but the view moves a rock's value.
 
     In every cell and state a measure of the outline is the truth of that view's outline. A measure
     of the solid has no truth of a view: it is the clean values' mean in that view.

@@ -8,7 +8,7 @@ from validation.kinds.design.judge.variance_components import MIN_VIEWS, whole_v
 
 
 def _deviations(clean: Floats, outlines: Floats, whole: NDArray[np.bool_]) -> Floats | None:
-    """Return each whole view's mean value over the rock's, less 1, and its outline's deviations.
+    """Each whole view's mean value over the rock's, less 1, and its outline's deviations.
 
     clean is (views, distances, rolls), outlines (views, truths); the result is (whole views,
     1 + truths), every column of mean 0. None with too few views, or without a true outline.
@@ -20,7 +20,7 @@ def _deviations(clean: Floats, outlines: Floats, whole: NDArray[np.bool_]) -> Fl
 
 
 def explained_share(moments: Floats) -> float:
-    """Return the share R² of the values' variance that a line in the outlines' truths explains.
+    """Share R² of the values' variance that a line in the outlines' truths explains.
 
     moments (1 + truths, 1 + truths) are summed products of deviations, y first:
     R² = s_yx S_xx⁺ s_xy/s_yy, with one line for all rocks.
@@ -32,7 +32,7 @@ def explained_share(moments: Floats) -> float:
 
 
 def moments_of(clean: Floats, found: Floats, noisy: Floats, outlines: Floats) -> Floats:
-    """Return a rock's mean products of deviations, (1 + truths, 1 + truths); NaN without."""
+    """Rock's mean products of deviations, (1 + truths, 1 + truths); NaN without."""
     own = _deviations(clean, outlines, whole_views(clean, found, noisy))
     if own is None:
         return np.full(2 * (1 + outlines.shape[-1],), np.nan)

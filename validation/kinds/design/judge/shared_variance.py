@@ -20,7 +20,7 @@ class Movements:
     alone: Floats  # (pairs,), mean of the two variances
 
     def shared(self, weights: Floats) -> float:
-        """Return Σ w_i w_j cov_ij / Σ w_i w_j (var_i + var_j)/2 over pairs; NaN without movement.
+        """Σ w_i w_j cov_ij / Σ w_i w_j (var_i + var_j)/2 over pairs; NaN without movement.
 
         It is 1 where every frame multiplies all its rocks by one factor, which leaves each frame's
         order as it is, and 0 where each rock moves by itself.
@@ -31,7 +31,7 @@ class Movements:
 
 
 def movements(values: Floats, *, rocks_a_scene: int) -> Movements:
-    """Return the pairs of rocks of values (rocks, cells), over the cells in which both have one.
+    """Pairs of rocks of values (rocks, cells), over the cells in which both have one.
 
     A value is taken over the rock's mean in those cells; pairs of fewer than three cells, or with
     a mean that is not positive, are left out.

@@ -27,7 +27,7 @@ class Cubes:
 def cubes_of(
     records: pd.DataFrame, experiment: DesignExperiment, *, method: str, measure: str
 ) -> Cubes:
-    """Return the values of one measure by one method; rocks not seen whole are NaN."""
+    """Values of one measure by one method; rocks not seen whole are NaN."""
     own = records[(records["experiment"] == experiment.name) & (records["method"] == method)]
     count = experiment.scene.rocks.count
     shape = (

@@ -28,7 +28,7 @@ CAUSES = tuple(field.name for field in fields(Parts) if field.name != "total")
 
 
 def split(clean: Floats, found: Floats, noisy: Floats) -> Parts | None:
-    """Return the parts of one rock's variance, or None where too few of its views are whole.
+    """Parts of one rock's variance, or None where too few of its views are whole.
 
     found and noisy are (views, distances, suns, rolls); clean is (views, distances, rolls), since
     true masks and exact range know of no light. A view counts where none of its cells is NaN in
@@ -77,7 +77,7 @@ def split(clean: Floats, found: Floats, noisy: Floats) -> Parts | None:
 
 
 def whole_views(clean: Floats, found: Floats, noisy: Floats) -> NDArray[np.bool_]:
-    """Return which views, (views,), have a value in every cell and state."""
+    """Which views, (views,), have a value in every cell and state."""
     return np.asarray(
         np.isfinite(clean).all(axis=(1, 2))
         & np.isfinite(found).all(axis=(1, 2, 3))

@@ -14,7 +14,7 @@ __all__ = ["scenes_shown", "section"]
 
 
 def section(run: Run, experiment: GardenExperiment, room: Room) -> Markup:
-    """Return the section of an experiment."""
+    """Section of an experiment."""
     return render(
         "garden.html",
         __name__,

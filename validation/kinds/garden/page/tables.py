@@ -29,7 +29,7 @@ class GardenTables:
 
 
 def garden_tables(run: Run, experiment: GardenExperiment) -> GardenTables:
-    """Return both comparisons for a field seen frame by frame."""
+    """Both comparisons for a field seen frame by frame."""
     scores = {score.name: score for score in run.scores}
     together = tuple(
         GardenRow(

@@ -86,7 +86,7 @@ def _of_method(experiment: MultiviewExperiment, series: str, method: str) -> lis
 
 
 def _of_view(statistic: Statistic) -> Statistic:
-    """Return a statistic of what each view truly shows under a name of its own."""
+    """Statistic of what each view truly shows under a name of its own."""
     return replace(
         statistic,
         key=VIEW_PREFIX + statistic.key,
@@ -95,7 +95,7 @@ def _of_view(statistic: Statistic) -> Statistic:
 
 
 def _of_rock(experiment: MultiviewExperiment, series: str, column: JudgedColumn) -> Claim:
-    """Return the claim held to the solid's own truth, which no measure of an outline can equal."""
+    """Claim held to the solid's own truth, which no measure of an outline can equal."""
     truth = _FORM if column.trait == "form" else column.trait
     measure = column.measure
     equals = measure.equals if measure is not None and measure.needs_range else ()
@@ -110,7 +110,7 @@ def _of_rock(experiment: MultiviewExperiment, series: str, column: JudgedColumn)
 
 
 def claims(experiment: MultiviewExperiment, measures: Sequence[MeasureSpec]) -> tuple[Claim, ...]:
-    """Return the claims that the rocks can judge, by what varies between them, then by method."""
+    """Claims that the rocks can judge, by what varies between them, then by method."""
     columns = list(columns_of(experiment, measures))
     return tuple(
         _of_rock(experiment, series, column)
@@ -124,7 +124,7 @@ def claims(experiment: MultiviewExperiment, measures: Sequence[MeasureSpec]) -> 
 def view_claims(
     experiment: MultiviewExperiment, measures: Sequence[MeasureSpec]
 ) -> tuple[Claim, ...]:
-    """Return the claims on what each view truly shows."""
+    """Claims on what each view truly shows."""
     return tuple(
         Claim(
             experiment.name,
@@ -144,14 +144,14 @@ def view_claims(
 def ranked_claims(
     experiment: MultiviewExperiment, measures: Sequence[MeasureSpec]
 ) -> tuple[Claim, ...]:
-    """Return the claims that the leaderboard ranks: a sweep's charts show its own."""
+    """Claims that the leaderboard ranks: a sweep's charts show its own."""
     return claims(experiment, measures) if experiment.sweep is None else ()
 
 
 def definitions(
     experiment: MultiviewExperiment, measures: Sequence[MeasureSpec]
 ) -> tuple[Definition, ...]:
-    """Return the scores of one experiment: what each method found, then each claim's statistics."""
+    """Scores of one experiment: what each method found, then each claim's statistics."""
     found = [
         definition
         for series in experiment.series

@@ -10,7 +10,7 @@ _ROCK = ["scene", "instance"]
 
 
 def rock_numbers(shown: pd.DataFrame, records: pd.DataFrame) -> tuple[NDArray[np.intp], int]:
-    """Return each shown row's rock number among all true rocks, and how many those are.
+    """Each shown row's rock number among all true rocks, and how many those are.
 
     All count, shown or not, so that two runs of one suite number the same rocks alike.
     """
@@ -33,20 +33,20 @@ def _share(good: NDArray[np.float64], rock: NDArray[np.intp], rocks: int) -> Est
 
 
 def recall(records: pd.DataFrame) -> Estimate:
-    """Return the share of rocks in plain view that were found, over all views."""
+    """Share of rocks in plain view that were found, over all views."""
     shown = records[(records["status"] != "extra") & records["eligible"].astype(bool)]
     found = np.asarray(shown["status"] == "matched", dtype=np.float64)
     return _share(found, *rock_numbers(shown, records))
 
 
 def precision(records: pd.DataFrame) -> Estimate:
-    """Return the share of measured rocks that are true ones; no interval, extras have no rock."""
+    """Share of measured rocks that are true ones; no interval, extras have no rock."""
     measured = records[records["status"] != "missed"]
     matched = np.asarray(measured["status"] == "matched", dtype=np.float64)
     return Estimate(float(matched.mean()) if matched.size else float("nan"), int(matched.size))
 
 
 def mean_iou(records: pd.DataFrame) -> Estimate:
-    """Return the mean intersection over union of the found rocks' masks."""
+    """Mean intersection over union of the found rocks' masks."""
     matched = records[(records["status"] == "matched") & records["eligible"].astype(bool)]
     return _share(matched["iou"].to_numpy(dtype=np.float64), *rock_numbers(matched, records))

@@ -22,7 +22,7 @@ _Values = NDArray[np.float64]
 def _pooled(
     values: _Values, rock: NDArray[np.intp], rocks: int, total: Callable[[_Values, _Values], float]
 ) -> Estimate:
-    """Return a statistic `total(values, weights)` of pooled values with a weight for each rock."""
+    """Statistic `total(values, weights)` of pooled values with a weight for each rock."""
     keep = np.isfinite(values)
     values, rock = values[keep], rock[keep]
     if values.size == 0:
@@ -54,7 +54,7 @@ def _in_plain_view(records: pd.DataFrame) -> pd.DataFrame:
 
 
 def centre_px(records: pd.DataFrame) -> Estimate:
-    """Return the RMS distance of the measured centres from those of the true visible masks."""
+    """RMS distance of the measured centres from those of the true visible masks."""
     shown = _in_plain_view(records)
     off = np.hypot(
         shown["row"].to_numpy(np.float64) - shown["truth_row"].to_numpy(np.float64),
@@ -64,14 +64,14 @@ def centre_px(records: pd.DataFrame) -> Estimate:
 
 
 def axis_a(records: pd.DataFrame) -> Estimate:
-    """Return the median ratio of the measured to the true longest half-axis."""
+    """Median ratio of the measured to the true longest half-axis."""
     shown = _in_plain_view(records)
     ratio = shown["axis_a_m"].to_numpy(np.float64) / shown["truth_axis_a_m"].to_numpy(np.float64)
     return _pooled(ratio, *rock_numbers(shown, records), _median)
 
 
 def _flat(blocks: Sequence[Block], *, less_truth: bool) -> tuple[_Values, NDArray[np.intp], int]:
-    """Return all values of all blocks, or their differences from the truth, with their rocks."""
+    """All values of all blocks, or their differences from the truth, with their rocks."""
     values, rocks, count = [np.empty(0)], [np.empty(0, np.intp)], 0
     for block in blocks:
         shown = block.values - block.view_truth if less_truth else block.values
@@ -82,7 +82,7 @@ def _flat(blocks: Sequence[Block], *, less_truth: bool) -> tuple[_Values, NDArra
 
 
 def _slope(blocks: Sequence[Block]) -> Estimate:
-    """Return the least-squares slope of measured on true values; 1 is calibrated."""
+    """Least-squares slope of measured on true values; 1 is calibrated."""
     values, rock, rocks = _flat(blocks, less_truth=False)
     truth = np.concatenate([np.empty(0), *(block.view_truth.ravel() for block in blocks)])
     keep = np.isfinite(values) & np.isfinite(truth)
@@ -135,5 +135,5 @@ DIFFERENCES = (_BIAS, _ERROR, _SLOPE)
 
 
 def of(claim: Claim) -> tuple[Statistic, ...]:
-    """Return the statistics of a claim's level; of its error where it has a truth of its own."""
+    """Statistics of a claim's level; of its error where it has a truth of its own."""
     return (_LEVEL, *DIFFERENCES) if claim.same_quantity else (_LEVEL,)

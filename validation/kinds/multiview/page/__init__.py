@@ -15,12 +15,12 @@ __all__ = ["scenes_shown", "section", "view_words", "views_summary"]
 
 
 def scenes_shown(experiment: MultiviewExperiment) -> int:
-    """Return the number of pictured scenes."""
+    """Number of pictured scenes."""
     return experiment.pictured
 
 
 def section(run: Run, experiment: MultiviewExperiment, room: Room) -> Markup:
-    """Return the section of an experiment; of a sweep, its charts over the steps."""
+    """Section of an experiment; of a sweep, its charts over the steps."""
     if experiment.sweep is not None:
         summary = sweep_summary(run, experiment, room)
         return render("sweep.html", __name__, w=summary)

@@ -12,7 +12,7 @@ Row = tuple[str, tuple[tuple[float, Score], ...]]  # title; paper's and ours for
 
 
 def beside_paper(run: Run, experiment: MultiviewExperiment) -> tuple[Row, ...]:
-    """Return a row for each statistic; none where nothing is judged as in the paper."""
+    """Row for each statistic; none where nothing is judged as in the paper."""
     if "angularity" not in experiment.varied or REFERENCE not in experiment.methods:
         return ()
     ours = {score.name: score for score in run.scores}

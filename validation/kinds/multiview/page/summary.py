@@ -27,13 +27,13 @@ class ViewsSummary:
 
 
 def view_words(place: RecordKey) -> tuple[str, str]:
-    """Return what a picture shows, in full and as a caption."""
+    """What a picture shows, in full and as a caption."""
     caption = f"seed {place.seed}, view {place.view + 1}"
     return f"Rocks of {caption}, outlined and numbered", caption
 
 
 def views_summary(run: Run, experiment: MultiviewExperiment, room: Room) -> ViewsSummary:
-    """Return the summary of an experiment."""
+    """Summary of an experiment."""
     own = run.records[run.records["experiment"] == experiment.name]
     first = own[own["scene"] == 0]
     by_first = own[own["method"] == experiment.methods[0]]

@@ -37,7 +37,7 @@ class SweepSummary:
 
 
 def _columns(experiment: MultiviewExperiment) -> dict[str, dict[str, str]]:
-    """Return {measure's title: {method: column}}, in the order of the methods' measures."""
+    """{measure's title: {method: column}}, in the order of the methods' measures."""
     columns: dict[str, dict[str, str]] = {}
     for method in experiment.methods:
         for measure in find_method(method).measures:
@@ -69,7 +69,7 @@ def _line(
 def _measured(
     run: Run, experiment: MultiviewExperiment
 ) -> tuple[tuple[str, tuple[float, ...]], ...]:
-    """Return the share of found rocks in plain view that got a value, where not all did."""
+    """Share of found rocks in plain view that got a value, where not all did."""
     own = run.records[run.records["experiment"] == experiment.name]
     shown = own[(own["status"] == "matched") & own["eligible"].astype(bool)]
     rows = []
@@ -84,7 +84,7 @@ def _measured(
 
 
 def sweep_summary(run: Run, experiment: MultiviewExperiment, room: Room) -> SweepSummary:
-    """Return what the page shows of an experiment with a sweep."""
+    """What the page shows of an experiment with a sweep."""
     if experiment.sweep is None:
         raise ValueError(f"{experiment.name}: expected an experiment with a sweep")
     scores = {score.name: score for score in run.scores}

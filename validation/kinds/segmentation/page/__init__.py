@@ -24,7 +24,7 @@ COLUMNS = (
 
 
 def scenes_shown(experiment: SegmentationExperiment) -> None:
-    """Return none: rocks that are only found are not shown one by one."""
+    """None: rocks that are only found are not shown one by one."""
 
 
 def _words(place: RecordKey) -> tuple[str, str]:
@@ -35,7 +35,7 @@ def _words(place: RecordKey) -> tuple[str, str]:
 
 
 def section(run: Run, experiment: SegmentationExperiment, room: Room) -> Markup:
-    """Return the section of an experiment."""
+    """Section of an experiment."""
     scores = {score.name: score for score in run.scores}
 
     def score(way: str, key: str) -> Score | None:

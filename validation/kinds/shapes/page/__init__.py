@@ -10,10 +10,10 @@ from validation.report.template import render
 
 
 def scenes_shown(experiment: ShapesExperiment) -> int:  # noqa: ARG001
-    """Return one: the first drawing of each series."""
+    """One: the first drawing of each series."""
     return 1
 
 
 def section(run: Run, experiment: ShapesExperiment, room: Room) -> Markup:
-    """Return the section of an experiment."""
+    """Section of an experiment."""
     return render("shapes.html", __name__, s=shapes_summary(run, experiment, room))

@@ -46,7 +46,7 @@ def _words(place: RecordKey) -> tuple[str, str]:
 
 
 def shapes_summary(run: Run, experiment: ShapesExperiment, room: Room) -> ShapesSummary:
-    """Return the summary of an experiment."""
+    """Summary of an experiment."""
     own = run.records[run.records["experiment"] == experiment.name]
     first = own[own["scene"] == 0]
     rows = []

@@ -23,7 +23,6 @@ def _commands(parser: argparse.ArgumentParser, before: tuple[str, ...] = ()) -> 
 
 
 COMMANDS = list(_commands(build_parser()))
-LIGHT = [words for words in COMMANDS if words]
 
 
 def _python(*arguments: str) -> tuple[str, set[str]]:
@@ -51,7 +50,7 @@ def test_all_commands_are_seen():
     assert {("measure",), ("synth", "scene"), ("validate", "run")} <= set(COMMANDS)
 
 
-@pytest.mark.parametrize("words", LIGHT, ids=" ".join)
+@pytest.mark.parametrize("words", COMMANDS, ids=" ".join)
 def test_every_help_has_two_examples_and_imports_nothing_heavy(words):
     printed, imported = _run(*words, "--help")
     assert imported & HEAVY == set()

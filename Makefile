@@ -1,6 +1,6 @@
 # `make demo` and `make test` each set up all they need first; a second run sets up nothing again.
 
-.PHONY: demo baseline compare test lint check-wheel example-ci setup clean
+.PHONY: demo baseline compare test bench-smoke lint check-wheel example-ci setup clean
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 1)
 
@@ -18,6 +18,10 @@ baseline: demo
 
 test: .venv/.ready
 	.venv/bin/pytest --numprocesses $(JOBS)
+
+# Every benchmark at its smallest size: that it works, not how fast it is.
+bench-smoke: .venv/.ready
+	.venv/bin/python benchmarks/run.py --smallest
 
 lint: .venv/.ready
 	.venv/bin/ruff format --check

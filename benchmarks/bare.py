@@ -1,15 +1,15 @@
-"""The bare renderers: the libraries called directly for a picture, depth and labels of a view.
+"""Bare renderers: the libraries called directly for a picture, depth and labels of a view.
 
 pyrender draws its own lit picture, one sun with shadows, at the supersampled pixels of the whole
 frame; Embree casts the rays to those pixels and from what they hit to the sun. Neither has sky,
 texture, photometric law or sensor. Depth and labels are those of the backend at the pixels.
 """
 
-import time
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from timing import timed
 
 from synth.camera.camera import Pose, RenderCamera
 from synth.light import Stage
@@ -35,11 +35,11 @@ class BareRenderer:
         self._draw = self._cast if backend == "embree" else _gl_picture(stage, self._fine)
 
     def seconds(self, pose: Pose) -> tuple[float, float]:
-        """Return the processor's seconds for all of a view, and for its geometry alone."""
+        """Return processor seconds of a whole view, and of its geometry alone."""
         limits_m = depth_limits_m(self._stage, self._camera, pose)
-        plain = _timed(lambda: self._plain.measure(pose, limits_m, None))
-        geometry = _timed(lambda: self._geometry.measure(pose, limits_m, None))
-        return plain + _timed(lambda: self._draw(pose, limits_m)), plain + geometry
+        plain = timed(lambda: self._plain.measure(pose, limits_m, None)).cpu_s
+        geometry = timed(lambda: self._geometry.measure(pose, limits_m, None)).cpu_s
+        return plain + timed(lambda: self._draw(pose, limits_m)).cpu_s, plain + geometry
 
     def _cast(self, pose: Pose, _: tuple[float, float]) -> None:
         """Cast the rays of a picture, and those to the sun from where they end."""
@@ -90,9 +90,3 @@ def _gl_picture(stage: Stage, camera: RenderCamera) -> Callable[[Pose, tuple[flo
         scene.remove_node(node)
 
     return draw
-
-
-def _timed(call: Callable[[], Any]) -> float:
-    start = time.process_time()
-    call()
-    return time.process_time() - start

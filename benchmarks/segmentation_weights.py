@@ -1,14 +1,13 @@
-"""Fit what tells an outline of a rock from others, on made scenes of seeds below 1000.
+"""Fit of the proposal-score model, on made scenes of seeds below 1000.
 
 The scenes are those of the suite `segmentation` with other seeds. Every outline proposed from the
-image is held against the true masks; the weights are a ridge regression of the overlap with the
-best rock on a quadratic form of the features. `--out FILE.py` writes them, which takes half an hour
-(the file is `rockshape/segmentation/by_image/proposal_weights.py`); `--check` fits on every other
-scene and prints how well the rest is told.
+image is held against the true masks; the coefficients are a ridge regression of the overlap with
+the best rock on a quadratic form of the features. `--out FILE.py` writes them, which takes half an
+hour (the file is `rockshape/segmentation/by_image/proposal_weights.py`); `--check` fits on every
+other scene and prints the explained variance of the rest.
 """
 
 import argparse
-import tempfile
 import textwrap
 from collections.abc import Iterator
 from pathlib import Path
@@ -16,16 +15,12 @@ from pathlib import Path
 import msgspec
 import numpy as np
 from numpy.typing import NDArray
+from views import made_views
 
-from rockshape.io import read_image
 from rockshape.outline.polygon_fill import inside_of
 from rockshape.segmentation.by_image.ground_appearance import read_lightness
 from rockshape.segmentation.by_image.proposal_score import features_of
 from rockshape.segmentation.by_image.star_proposals import propose
-from synth.dataset.write import write_scene
-from synth.render import choose_backend
-from validation.kinds.segmentation.spec import SegmentationExperiment
-from validation.records.truth import read_instances
 from validation.suite.suite import load_suite
 
 Floats = NDArray[np.float64]
@@ -46,20 +41,11 @@ WIDTH = 100
 
 
 def views() -> Iterator[tuple[NDArray[np.float32], NDArray[np.int32]]]:
-    """Image and true labels of every view."""
+    """Yield image and true labels of every view."""
     for experiment in load_suite("segmentation").experiments:
-        if isinstance(experiment, SegmentationExperiment):
-            for seed in SEEDS.get(experiment.name, ()):
-                with tempfile.TemporaryDirectory() as parent:
-                    folder = Path(parent) / "data"
-                    spec = msgspec.structs.replace(experiment.scene, seed=seed)
-                    write_scene(spec, 0, choose_backend(spec.renderer), folder)
-                    for view in range(spec.views.count):
-                        name = f"{view:06d}.png"
-                        yield (
-                            read_image(folder / "000000" / "gray" / name),
-                            read_instances(folder / "000000" / "labels" / name),
-                        )
+        for seed in SEEDS.get(experiment.name, ()):
+            for view in made_views(msgspec.structs.replace(experiment.scene, seed=seed)):
+                yield view.observation.image, view.labels
 
 
 def examples(image: NDArray[np.float32], labels: NDArray[np.int32]) -> tuple[Floats, Floats]:
@@ -106,7 +92,7 @@ def module(weights: tuple[Floats, Floats, Floats]) -> str:
     middle, spread, form = weights
     corner = np.triu_indices(len(form))
     lines = [
-        '"""What `likely` was fitted to be, by `benchmarks/segmentation_weights.py`."""',
+        '"""Coefficients of the proposal-score model, by `benchmarks/segmentation_weights.py`."""',
         "",
         "import numpy as np",
         "",

@@ -1,5 +1,6 @@
 """Drawn shapes as pixels at any size, turned and shifted anyhow, for the 2-D benchmarks."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,7 +10,10 @@ from synth.shapes import Shape, shape_series
 from synth.shapes.outline import axis_ratio
 
 Floats = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 REPORTED_FROM = 10_000  # seeds below are for tuning
+TURN_RAD = np.linspace(0, 2 * np.pi, 4000, endpoint=False)
+CIRCLE = np.column_stack([np.cos(TURN_RAD), np.sin(TURN_RAD)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +33,7 @@ class Silhouette:
             "knob": self.shape.knob,
         }
 
-    def mask(self, size_px: float) -> NDArray[np.bool_]:
+    def mask(self, size_px: float) -> Mask:
         """The pixels inside at a size (the long side of the smallest rectangle)."""
         rng = np.random.default_rng([self.seed, round(size_px)])
         outline = self.shape.outline.outline_px() * size_px / self.shape.sides_px[0]
@@ -49,7 +53,7 @@ def turned(points: Floats, angle_rad: float) -> Floats:
     return points @ np.array([[cosine, sine], [-sine, cosine]])
 
 
-def fill(outline_px: Floats, *, margin: int = 3) -> NDArray[np.bool_]:
+def fill(outline_px: Floats, *, margin: int = 3) -> Mask:
     """Pixels whose centres lie inside a closed polygon (n, 2), in a frame just larger than it.
 
     Each row toggles where a side crosses it.
@@ -66,3 +70,12 @@ def fill(outline_px: Floats, *, margin: int = 3) -> NDArray[np.bool_]:
     toggles = np.zeros((rows, cols), dtype=np.int32)
     np.add.at(toggles, (row, np.ceil(x).astype(int)), 1)
     return np.asarray(toggles.cumsum(axis=1) % 2 == 1)
+
+
+def over_turns(read: Callable[[Mask], float], outline_px: Floats, turns: int) -> Floats:
+    """Return the values of an outline (n, 2), turned and shifted anew each time."""
+    found = []
+    for turn in range(turns):
+        rng = np.random.default_rng(REPORTED_FROM + turn)
+        found.append(read(fill(turned(outline_px, rng.uniform(0, 7)) + rng.uniform(0, 1, 2))))
+    return np.array(found)

@@ -80,7 +80,7 @@ class Group:
     along: tuple[Floats, Floats]  # autocorrelation of disparity errors along rows, (LAGS,)
     down: tuple[Floats, Floats]  # and along columns
     by_texture: Floats  # (len(GREYS) − 1, 3): pixels, sums of both squared errors of disparity
-    seconds: tuple[float, float]  # for a view
+    seconds: tuple[float, float]  # of the processor, for a view
 
 
 def compared(

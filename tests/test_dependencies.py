@@ -12,7 +12,7 @@ from tools.import_graph import PACKAGES, ROOT, Source, imported_names, read_sour
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 FOLDERS = ("tests", "tools", "benchmarks")
 # benchmarks run as scripts import each other by their bare names
-OWN = {*PACKAGES, *FOLDERS, *(path.stem for path in (ROOT / "benchmarks").glob("*.py"))}
+OWN = {*PACKAGES, *FOLDERS, *(path.stem for path in (ROOT / "benchmarks").iterdir())}
 # a plug-in for pytest is only ever imported by pytest
 BROUGHT_BY_THE_HOST = {"pytest"}
 # of the dev extra, what is run as a command or is there for the type checker

@@ -13,14 +13,9 @@ Range and unit: 0 to 1, a pure number.
 
 Blind to: how many corners there are, dents, and corners that turn by less than 11 degrees.
 
-Smallest size: on 243 rounded polygons of known roundness 0.1 to 0.9, any form and turn, Pearson's
-r, bias and RMS error are .87, +.05, .14 at 30 px; .977, -.00, .06 at 60 px; .991, -.01, .04 at 100
-px; .995, -.01, .03 at 200 px; .998, -.01, .02 at 500 px; .999, -.01, .015 at 1000 px. fast_rs on
-the same pictures has r .43, .78, .86 and .93 up to 200 px, and a bias of .4. A disc comes out at
-.91 at 60 px and .99 at 200 px, a stadium at .92 at 200 px; the ends of an ellipse of 0.4, at .46.
-Corners that are many are small: on 84 outlines of rounded polyhedra, with some eleven corners each,
-r is .51, .62, .76, .89, .98 and .99 at the same six sizes, with a bias of +.27, +.17, +.12, +.06,
-+.02 and +.01. Such rocks want 200 px (`python benchmarks/roundness.py`).
+Smallest size: 60 px for a rock of few corners. Corners that are many are small, and read too
+round: a rock of some eleven corners wants 200 px. docs/resolution.md has the correlation with the
+truth, bias and error by size, beside fast_rs's (`python benchmarks/run.py roundness`).
 
 Degenerate: 1 where there is no corner. Refuses rocks that the frame cuts, less than 4 px wide or
 with an outline of fewer than 40 px.

@@ -14,7 +14,7 @@ see: on rocks of known axes its error is twice to three times the robust reading
 reading takes a buried rock for one that rests, and so for flatter than it is.
 
 Smallest size: 30 points of range. On exact range rocks of 25 px across still have it to 0.03; what
-limits it is range noise, and less so held (`python benchmarks/solids.py`).
+limits it is range noise, and less so held (`python benchmarks/run.py solids`).
 
 Degenerate: NaN for fewer points, points on one line, an axis that the points do not determine (it
 stands at its bound) and a search that did not converge.

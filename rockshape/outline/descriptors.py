@@ -2,8 +2,8 @@
 
 All are of the sub-pixel outline (`pixel_smooth`), so that no staircase counts. The errors that the
 docstrings quote are relative, over turns and shifts of a disc, an ellipse 2:1 and a square of a
-greatest extent in pixels: means, with the standard deviation after ±. `benchmarks/descriptors.py`
-prints them all, beside scikit-image's.
+greatest extent in pixels: means, with the standard deviation after ±. docs/resolution.md
+has them all, beside scikit-image's.
 """
 
 from dataclasses import dataclass

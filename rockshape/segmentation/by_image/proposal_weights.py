@@ -1,4 +1,4 @@
-"""What `likely` was fitted to be, by `benchmarks/segmentation_weights.py`."""
+"""Coefficients of the proposal-score model, by `benchmarks/segmentation_weights.py`."""
 
 import numpy as np
 

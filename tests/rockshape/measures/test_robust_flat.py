@@ -50,7 +50,7 @@ def value(measure: Measure, mask: np.ndarray) -> float:
     return reading.value
 
 
-# how far a value may lie from that at 400 px: benchmarks/resolution.py
+# how far a value may lie from that at 400 px: docs/resolution.md
 DRIFT = {
     "axis_ratio": (0.01, 0.005),
     "ellipse_error": (0.10, 0.03),

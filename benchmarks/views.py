@@ -1,0 +1,59 @@
+"""Made views as the command line reads them: dataset files written and read back."""
+
+import json
+import tempfile
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rockshape.io import read_camera, read_image, read_range
+from rockshape.observation import Observation
+from synth.dataset.write import write_common, write_scene
+from synth.render import choose_backend
+from synth.spec import SceneSpec
+from validation.records.truth import read_instances
+
+
+@dataclass(frozen=True, eq=False)
+class MadeView:
+    """A view of a made scene: what is observed, the true labels and the true rocks."""
+
+    observation: Observation
+    exact: Observation  # with the range free of noise
+    labels: NDArray[np.integer[Any]]
+    rocks: list[dict[str, Any]]  # of the scene, by instance
+    seen: dict[int, dict[str, Any]]  # of this view, by instance
+
+
+def made_views(spec: SceneSpec) -> Iterator[MadeView]:
+    """Yield the views of a spec's first scene."""
+    with tempfile.TemporaryDirectory() as parent:
+        folder = Path(parent) / "data"
+        backend = choose_backend(spec.renderer)
+        write_scene(spec, 0, backend, folder)
+        write_common(spec, backend, folder)
+        camera, data = read_camera(folder / "camera.json"), folder / "000000"
+        exact = "depth_true" if (data / "depth_true").exists() else "depth"
+        truth = json.loads((data / "scene_gt_shape.json").read_text(encoding="utf-8"))
+        for view, rocks in truth["views"].items():
+            name = f"{int(view):06d}.png"
+            image = read_image(data / "gray" / name)
+            seen = [
+                Observation(
+                    image=image,
+                    points_m=read_range(data / kind / name, shape=image.shape, camera=camera),
+                    camera=camera,
+                )
+                for kind in ("depth", exact)
+            ]
+            yield MadeView(
+                observation=seen[0],
+                exact=seen[1],
+                labels=read_instances(data / "labels" / name),
+                rocks=truth["rocks"],
+                seen={rock["instance"]: rock for rock in rocks},
+            )

@@ -10,9 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.io import read_camera, read_image, read_range
+from rockshape.camera.camera import Camera
+from rockshape.io import read_image, read_range
 from rockshape.observation import Observation
-from synth.dataset.write import write_common, write_scene
+from synth.camera.trajectories import camera_of
+from synth.dataset.depth import depth_scale_mm
+from synth.dataset.write import write_scene
 from synth.render import choose_backend
 from synth.spec import SceneSpec
 from validation.records.truth import read_instances
@@ -29,14 +32,14 @@ class MadeView:
     seen: dict[int, dict[str, Any]]  # of this view, by instance
 
 
-def made_views(spec: SceneSpec) -> Iterator[MadeView]:
-    """Yield the views of a spec's first scene."""
+def made_views(spec: SceneSpec, index: int = 0) -> Iterator[MadeView]:
+    """Yield the views of a scene of a spec."""
     with tempfile.TemporaryDirectory() as parent:
         folder = Path(parent) / "data"
-        backend = choose_backend(spec.renderer)
-        write_scene(spec, 0, backend, folder)
-        write_common(spec, backend, folder)
-        camera, data = read_camera(folder / "camera.json"), folder / "000000"
+        write_scene(spec, index, choose_backend(spec.renderer), folder)
+        eye, data = camera_of(spec.camera), folder / f"{index:06d}"
+        scale_mm = depth_scale_mm(spec)
+        camera = Camera(eye.fx, eye.fy, eye.cx, eye.cy, eye.width, eye.height, scale_mm)
         exact = "depth_true" if (data / "depth_true").exists() else "depth"
         truth = json.loads((data / "scene_gt_shape.json").read_text(encoding="utf-8"))
         for view, rocks in truth["views"].items():

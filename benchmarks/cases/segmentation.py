@@ -115,8 +115,7 @@ def accuracy(*, only: tuple[str, ...], preset: str, jobs: int) -> list[Table]:
                     ground.median(),
                 )
             )
-    spans = [f"{low:g} to {high:g} px" for low, high in SIZES_PX]
-    spans += [f"{low:g} to {high:g} m" for low, high in DEPTHS_M]
+    spans = [_span(*ends, "px") for ends in SIZES_PX] + [_span(*ends, "m") for ends in DEPTHS_M]
     columns = (Column("range"), Column("family"), Column("rocks", "", "d"))
     columns += tuple(Column(method, "", ".3f") for method in METHODS)
     return [
@@ -136,6 +135,10 @@ def accuracy(*, only: tuple[str, ...], preset: str, jobs: int) -> list[Table]:
             name="errors",
         ),
     ]
+
+
+def _span(low: float, high: float, unit: str) -> str:
+    return f"over {low:g} {unit}" if np.isinf(high) else f"{low:g} to {high:g} {unit}"
 
 
 def _counted(rows: pd.DataFrame) -> int:

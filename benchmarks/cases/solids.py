@@ -77,14 +77,15 @@ def _measured(
     found: dict[tuple[str, str], list[pd.DataFrame]] = {}
     for scene in range(scenes):
         table = {
-            "seed": SEED + scene,
+            "seed": SEED,
+            "scenes": scenes,
             "renderer": "embree",
             "rocks": {"count": 6, **rocks},
             "camera": camera,
             "views": {"count": 2},
             "noise": {"kind": "stereo"},
         }
-        for number, view in enumerate(made_views(convert_spec(table, where="solids"))):
+        for number, view in enumerate(made_views(convert_spec(table, where="solids"), scene)):
             for key, frame in measured_both(view).items():
                 true = [view.rocks[int(rock) - 1] for rock in frame["rock"]]
                 frame["true_sphericity"] = [one["maximum_projection_sphericity"] for one in true]

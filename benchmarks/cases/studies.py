@@ -101,7 +101,8 @@ def mutations(*, preset: str, scenes: int, count: int) -> list[Table]:
             rows.append((mutation.name, mutation.what, caught))
         every = {f"{g.score} {g.relation} {g.bound:g}" for g in bench.suite.gates}
         idle = sorted(every - bitten - set(control))
-        rows.append(("gates that caught none", "", ", ".join(f"`{gate}`" for gate in idle)))
+        told = ", ".join(f"`{gate}`" for gate in idle) or "none"
+        rows.append(("gates that caught none", "", told))
         heads = ("mutation", "what is wrong", "gates that caught it")
         tables.append(Table([Column(head) for head in heads], rows, name=method))
     return tables

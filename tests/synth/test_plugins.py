@@ -16,8 +16,7 @@ from synth.errors import SpecError
 from synth.rocks import Family, quarry, register_family
 from synth.sensor import Capture, Sensor, SensorInput, register_sensor
 from synth.spec import convert_spec
-from synth.spec.rocks import FAMILIES, RocksSpec
-from synth.spec.sensor import SENSORS
+from synth.spec.rocks import RocksSpec
 from tests.synth.plugins.bricks import BRICK
 from tests.synth.plugins.lidar import LIDAR
 
@@ -31,13 +30,10 @@ LIDAR_SCENE = {
 
 
 @pytest.fixture(autouse=True)
-def registered():
-    """Both records, in a process in which they may have been taken out again."""
+def registered(no_registered_records):  # noqa: ARG001 (runs before)
+    """Both records."""
     register_sensor(LIDAR)
     register_family(BRICK)
-    yield
-    SENSORS._registered.pop("lidar", None)
-    FAMILIES._registered.pop("brick", None)
 
 
 def read(path: Path) -> np.ndarray:
@@ -190,10 +186,7 @@ def test_a_sensor_that_no_module_holds_is_refused_before_workers_start(tmp_path)
         return LIDAR.capture(shot)
 
     register_sensor(Sensor("local", "mine", capture))
-    try:
-        spec = convert_spec({"noise": {"kind": "local"}}, where="test")
-        with pytest.raises(SpecError, match="sensor 'local': expected one defined in a module"):
-            generate_dataset(spec, tmp_path / "out")
-        assert not (tmp_path / "out").exists()
-    finally:
-        SENSORS._registered.pop("local")
+    spec = convert_spec({"noise": {"kind": "local"}}, where="test")
+    with pytest.raises(SpecError, match="sensor 'local': expected one defined in a module"):
+        generate_dataset(spec, tmp_path / "out")
+    assert not (tmp_path / "out").exists()

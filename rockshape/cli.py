@@ -19,6 +19,7 @@ from importlib.metadata import EntryPoint, entry_points, version
 from typing import Protocol, cast
 
 from rockshape.commands.parser import CommandParser, examples
+from rockshape.errors import one_line
 
 GROUP = "rockshape.commands"
 
@@ -79,17 +80,21 @@ def main(argv: Sequence[str] | None = None) -> int:
         sys.stdout = None  # whoever read the output has gone, nothing is left to flush
         return 0
     except OSError as error:
-        print(f"rockshape: {error.filename or 'output'}: {error.strerror}", file=sys.stderr)
+        _complain(f"{error.filename or 'output'}: {error.strerror}")
         return 2
     except Exception as error:
         status = getattr(error, "exit_status", None)
         if not isinstance(status, int):
             raise
-        print(f"rockshape: {' '.join(str(error).split())}", file=sys.stderr)
+        _complain(str(error))
         return status
     except KeyboardInterrupt:
         print("rockshape: interrupted", file=sys.stderr)
         return 130
+
+
+def _complain(message: str) -> None:
+    print(one_line(f"rockshape: {message}"), file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,8 @@
 from collections.abc import Iterable
 from difflib import get_close_matches
 
+MAX_LINE = 500  # characters of a message
+
 
 class InputError(ValueError):
     """Unusable input: the message says what and where, what was expected and what was found."""
@@ -22,3 +24,16 @@ def unknown_name(what: str, found: str, known: Iterable[str]) -> InputError:
     return InputError(
         f"{what}: expected one of {', '.join(names)}, found {found!r}{did_you_mean(found, names)}"
     )
+
+
+def one_line(text: str, limit: int = MAX_LINE) -> str:
+    """Text as a single printable line of at most `limit` characters.
+
+    Control characters, text-direction marks and bytes that are no text become spaces, runs of
+    spaces one space; what is too long loses its middle.
+    """
+    clean = " ".join("".join(each if each.isprintable() else " " for each in text).split())
+    if len(clean) <= limit:
+        return clean
+    kept = limit - 3
+    return f"{clean[: kept - kept // 2]}...{clean[-(kept // 2) :]}"

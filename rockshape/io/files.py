@@ -1,16 +1,22 @@
 """Whole-file reading and atomic writing, with one line for what is wrong."""
 
 import os
+import stat
 import tempfile
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from math import prod
 from pathlib import Path
 from typing import IO
 
 from rockshape.errors import InputError
 
 HEAD_BYTES = 2**16  # what content sniffing is shown
+MAX_PIXELS = 2**27  # 134 million: 12,000 x 9,000 and a little more
+MAX_PIXEL_BYTES = 8  # four channels of 16 bits, or a double
+MAX_PIXEL_VALUES = 4  # of labels and range: x, y, z and a confidence
+SMALL_PIXELS = 2**18  # what is never too many; another shape is then told by the reader
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,6 +25,8 @@ class InputFile:
 
     path: Path
     expected: str = "a file"  # what it should be, for the messages
+    max_pixels: int = MAX_PIXELS  # what may be decoded
+    image_shape: tuple[int, int] | None = None  # of the image that it belongs to
 
     @cached_property
     def head(self) -> bytes:
@@ -30,8 +38,38 @@ class InputFile:
         """All bytes. Raises: InputError as `head` does."""
         return self._read(-1)
 
+    def check_shape(self, shape: Sequence[int], *, item_bytes: int = 1) -> None:
+        """Check the shape that a file declares, before its values are decoded.
+
+        shape is (rows, cols, …), or (n, rows, cols) of a stack of masks. Raises: InputError for
+        more pixels than `max_pixels`, more than eight bytes for each of those, or far more values
+        than the image has pixels.
+        """
+        found = " x ".join(map(str, shape))
+        stacked = tuple(shape[-2:]) == self.image_shape
+        pixels = prod(shape[1:] if stacked else shape[:2])
+        if pixels > self.max_pixels:
+            raise InputError(
+                f"{self.path}: expected at most {self.max_pixels} pixels (--max-pixels), "
+                f"found {found}"
+            )
+        if prod(shape) * item_bytes > MAX_PIXEL_BYTES * self.max_pixels:
+            raise InputError(
+                f"{self.path}: expected at most {MAX_PIXEL_BYTES * self.max_pixels} bytes "
+                f"({MAX_PIXEL_BYTES} x --max-pixels), found {found} of {item_bytes}"
+            )
+        if self.image_shape is not None and not stacked:
+            most = MAX_PIXEL_VALUES * max(prod(self.image_shape), SMALL_PIXELS)
+            if prod(shape) > most:
+                raise InputError(
+                    f"{self.path}: expected {self.image_shape} as the image has, "
+                    f"found {tuple(shape)}"
+                )
+
     def _read(self, size: int) -> bytes:
         try:
+            if not stat.S_ISREG(self.path.stat().st_mode) and not self.path.is_dir():
+                raise self.refusal("no regular file")  # a pipe or a device can have no end
             with self.path.open("rb") as stream:
                 data = stream.read(size)
         except FileNotFoundError:

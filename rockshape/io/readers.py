@@ -44,7 +44,7 @@ def read_labels(path: Path | str, *, shape: tuple[int, ...], image_name: str = "
     Raises: InputError where the file holds no such labels or those of another shape.
     """
     info = _image_info(shape, image_name)
-    with LABELS.open(path) as (file, chosen):
+    with LABELS.open(path, image_shape=info.shape) as (file, chosen):
         instances = chosen.read(file, info)
     if instances.shape != info.shape:
         raise InputError(f"{path}: expected {info.shape} as the image has, found {instances.shape}")
@@ -61,7 +61,7 @@ def read_range(
     Raises: InputError where the file is no such range or of another shape.
     """
     info = _image_info(shape)
-    with RANGES.open(path) as (file, chosen):
+    with RANGES.open(path, image_shape=info.shape) as (file, chosen):
         raster = chosen.read(file, info)
     try:
         return _points(raster, info, camera)

@@ -12,7 +12,7 @@ other distributions, then our own, so that a special case can precede a general 
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib import import_module
 from importlib.metadata import EntryPoint, entry_points
@@ -22,7 +22,7 @@ from typing import Any, Generic, TypeVar
 
 from rockshape.errors import InputError
 from rockshape.io.contents import describe_content
-from rockshape.io.files import InputFile, check_writable
+from rockshape.io.files import MAX_PIXELS, InputFile, check_writable
 from rockshape.io.format import (
     CameraFormat,
     Format,
@@ -33,6 +33,7 @@ from rockshape.io.format import (
     TableFormat,
     suffix_of,
 )
+from rockshape.io.guard import guard, reason_of
 
 GROUP = "rockshape.formats"
 F = TypeVar("F", bound=Format)
@@ -78,22 +79,32 @@ class FormatRegistry(Generic[F]):
         self.registered[added.name] = added
 
     @contextmanager
-    def open(self, path: Path | str) -> Iterator[tuple[InputFile, F]]:
+    def open(
+        self,
+        path: Path | str,
+        *,
+        max_pixels: int = MAX_PIXELS,
+        image_shape: tuple[int, int] | None = None,
+    ) -> Iterator[tuple[InputFile, F]]:
         """Choose the format of a file; whatever a reader raises within becomes an InputError.
 
+        Other libraries' logs and warnings are silenced within. max_pixels and image_shape bound
+        what readers decode, see `InputFile.check_shape`.
         Raises: InputError where no known format fits.
         """
         readable = [each for each in self.formats if each.readable]
         names = ", ".join(dict.fromkeys(each.name for each in readable))
-        file = InputFile(Path(path), expected=f"{self.noun} ({names})")
-        chosen = _choose(file, readable)
-        try:
+        file = InputFile(
+            Path(path),
+            expected=f"{self.noun} ({names})",
+            max_pixels=max_pixels,
+            image_shape=image_shape,
+        )
+        with guard(file.refusal):
+            chosen = _choose(file, readable)
+        file = replace(file, expected=f"{self.noun} ({chosen.name})")
+        with guard(file.refusal):
             yield file, chosen
-        except InputError:
-            raise
-        except Exception as error:
-            broken = InputFile(file.path, expected=f"{self.noun} ({chosen.name})")
-            raise broken.refusal(_one_line(error)) from error
 
     def encode(self, path: Path | str, content: object) -> bytes:
         """Content of a file in the format that the path's suffix names; nothing is written.
@@ -104,7 +115,7 @@ class FormatRegistry(Generic[F]):
         try:
             return chosen.write(content)
         except Exception as error:
-            raise InputError(f"{path}: {_one_line(error)}") from error
+            raise InputError(f"{path}: {reason_of(error)}") from error
 
     def for_writing(self, path: Path) -> F:
         """Return the format that a path's suffix names.
@@ -147,10 +158,6 @@ def _registry_of(added: object) -> FormatRegistry[Any]:
     raise InputError(f"format: expected one of {records}, found {type(added).__name__}")
 
 
-def _one_line(error: Exception) -> str:
-    return " ".join(str(error).split()) or type(error).__name__
-
-
 @cache
 def _from_entry_points() -> tuple[Format, ...]:
     return tuple(_load(point) for point in entry_points(group=GROUP))
@@ -162,7 +169,7 @@ def _load(point: EntryPoint) -> Format:
     try:
         loaded: object = point.load()
     except Exception as error:
-        raise InputError(f"{where}: expected a format, found {_one_line(error)}") from error
+        raise InputError(f"{where}: expected a format, found {reason_of(error)}") from error
     if not isinstance(loaded, Format):
         raise InputError(f"{where}: expected a format, found {type(loaded).__name__}")
     return loaded

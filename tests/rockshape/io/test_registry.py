@@ -165,7 +165,9 @@ def test_whatever_a_reader_raises_is_one_line(tmp_path: Path) -> None:
     register_format(ImageFormat(name="huge", suffixes=(".huge",), summary="", read=read))
     path = tmp_path / "image.huge"
     path.write_text("x")
-    with pytest.raises(InputError, match=r"image\.huge: expected an image \(huge\), found MemoryE"):
+    with pytest.raises(
+        InputError, match=r"image\.huge: expected an image \(huge\), found more than the"
+    ):
         read_image(path)
 
 

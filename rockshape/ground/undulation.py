@@ -35,7 +35,6 @@ MEDIAN_VARIANCE = 1.57  # of n normal values' median over that of their mean
 MIN_CELLS = 40
 TAIL, NORMAL_TAIL = 0.03, 1.881  # a low quantile, and where a normal distribution has it
 NORMAL_BELOW = 0.1587  # share of a normal distribution more than its deviation below its middle
-STRIP = 1024  # points in a row for OpenCV, which takes up to 32,767 rows
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,16 +55,11 @@ class Swell:
         """Height (...) of the surface above the plane under points (..., 3), 0 under none."""
         place = (_polar(points_m, self.axes) - self.origin.astype(np.float32)) / self.cell
         known = np.isfinite(place).all(axis=-1)
-        flat = np.where(known[..., None], place, 0).reshape(-1, 2).astype(np.float32)
-        strips = np.pad(flat, ((0, -len(flat) % STRIP), (0, 0))).reshape(-1, STRIP, 2)
-        height = cv2.remap(
-            self.nodes_m,
-            strips[..., 1],
-            strips[..., 0],
-            cv2.INTER_LINEAR,
-            borderMode=cv2.BORDER_REPLICATE,
+        place = np.moveaxis(np.where(known[..., None], place, 0), -1, 0)
+        # cv2.remap rounds places to 1/32 of a cell before OpenCV 5
+        height = ndi.map_coordinates(
+            self.nodes_m, place, order=1, mode="nearest", output=np.float32
         )
-        height = height.ravel()[: len(flat)].reshape(known.shape)
         return np.where(known, height, np.float32(0))
 
 

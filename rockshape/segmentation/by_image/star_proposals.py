@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-import cv2
 import numpy as np
+import scipy.ndimage as ndi
 from numpy.typing import NDArray
 
 from rockshape.segmentation.by_image.ground_appearance import DARK, Lightness
@@ -107,13 +107,8 @@ def _unroll(lightness: Lightness, seeds: Floats, turns: Floats) -> Polar:
     inside = (x >= 0) & (y >= 0) & (x <= cols - 1) & (y <= rows - 1)
     place = np.clip(np.rint(y), 0, rows - 1).astype(np.intp) * cols
     place += np.clip(np.rint(x), 0, cols - 1).astype(np.intp)
-    light = cv2.remap(
-        lightness.light,
-        x.reshape(-1, RINGS).astype(np.float32),
-        y.reshape(-1, RINGS).astype(np.float32),
-        cv2.INTER_LINEAR,
-        borderMode=cv2.BORDER_REPLICATE,
-    ).reshape(x.shape)
+    # cv2.remap rounds places to 1/32 px before OpenCV 5
+    light = ndi.map_coordinates(lightness.light, (y, x), order=1, mode="nearest", output=np.float32)
     light = light / lightness.texture.ravel()[place[:, :, :1]]
     edge = np.zeros(x.shape)
     edge[..., 1:-1] = np.abs(light[..., 2:] - light[..., :-2]) / step[:, None, None]

@@ -128,9 +128,10 @@ def _ring(
     held = ((points < 1) | (points > np.array([cols - 2, rows - 2]))).any(axis=1)
     lanes = _lanes()
     wide = np.concatenate([[lanes[0] - LANE_PX], lanes, [lanes[-1] + LANE_PX]])
-    places = (points[:, None] + wide[:, None] * normals[:, None]).astype(np.float32)
-    profile = cv2.remap(
-        light, places[..., 0], places[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE
+    places = points[:, None] + wide[:, None] * normals[:, None]
+    # cv2.remap rounds places to 1/32 px before OpenCV 5
+    profile = ndi.map_coordinates(
+        light, (places[..., 1], places[..., 0]), order=1, mode="nearest", output=np.float32
     )
     step = np.abs(profile[:, 2:] - profile[:, :-2]) / (2 * LANE_PX)
     edge = np.minimum(step / np.float32(texture), np.float32(STRONGEST))

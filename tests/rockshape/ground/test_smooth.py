@@ -6,7 +6,7 @@ import pytest
 from rockshape.ground import NoiseModel, Plane
 from rockshape.ground.slope_filter import gentle_below
 from rockshape.ground.thin_plate import bend
-from rockshape.ground.undulation import fit_swell, undulates
+from rockshape.ground.undulation import Swell, fit_swell, undulates
 
 NORMAL = np.array([0.0, -1.0, 0.0])
 
@@ -78,3 +78,15 @@ def test_straight_down_there_is_no_azimuth_and_few_points_are_no_surface(
     assert fit_swell(points, plane=down, noise=noise) is None
     assert fit_swell(points[:50], plane=level, noise=noise) is None
     assert fit_swell(points, plane=level, noise=noise) is None
+
+
+def test_the_surface_is_linear_between_its_nodes_at_any_place() -> None:
+    axes = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    azimuth, distance = np.mgrid[:11, :21]
+    nodes = (0.3 * azimuth + 0.2 * distance).astype(np.float32)
+    swell = Swell(axes, np.zeros(2), 0.1, nodes, 0.0)
+    where = np.linspace(0.01, 9.99, 500)  # cells; closer than a 32nd of one
+    turn, far = 0.1 * where, np.exp(0.2 * where[::-1])
+    points = np.column_stack([far * np.sin(turn), np.zeros(500), far * np.cos(turn)])
+    # places are in single precision
+    assert swell.height_m(points) == pytest.approx(0.3 * where + 0.4 * where[::-1], abs=1e-4)

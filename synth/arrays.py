@@ -1,4 +1,4 @@
-"""Named array types: what the arrays of the public interface hold."""
+"""Named array types, those of the public interface with what they hold."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,3 +11,9 @@ DepthImage = NDArray[np.float64]
 
 LabelImage = NDArray[np.uint16]
 """Label of the rock seen at each pixel's centre, (rows, cols); 0 elsewhere."""
+
+# of any shape, which stands where they are used
+Floats = NDArray[np.float64]
+Singles = NDArray[np.float32]
+Ints = NDArray[np.int64]
+Mask = NDArray[np.bool_]

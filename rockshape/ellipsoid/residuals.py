@@ -5,11 +5,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rockshape.ellipsoid.parameters import State
-
-Floats = NDArray[np.float64]  # spelt once: inner functions evaluate their annotations at each call
+from rockshape.numerics.arrays import Floats
 
 TINY = 1e-24
 

@@ -8,7 +8,8 @@ three independent errors.
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from rockshape.numerics.arrays import Floats
+from rockshape.numerics.robust_scale import MEDIAN_TO_SIGMA
 
 ROWS = 96  # of the frame, evenly: enough for 1 % of the standard deviation
 MAX_WINDOW_PX = 11
@@ -20,7 +21,6 @@ MIN_IN_BIN = 100
 CUT = 3.0  # standard deviations within which values count,
 CUT_VARIANCE = 0.9733  # and the variance of the standard normal distribution within them
 ROUNDS = 20
-NORMAL_MEDIAN = 0.6745  # of |x| for the standard normal distribution
 UNCORRELATED = 0.05
 SEPARABLE = 4.0  # ratio of 1/x² from which roughness can be told from range noise
 
@@ -73,7 +73,7 @@ def estimate_roughness(height_m: Floats, lever_m2: Floats, *, range_sd_per_m: fl
     deep, lever = -height_m[below], lever_m2[below]
     excess, weight = [], []
     for own in _bins(lever):
-        variance = (float(np.median(deep[own])) / NORMAL_MEDIAN) ** 2
+        variance = (MEDIAN_TO_SIGMA * float(np.median(deep[own]))) ** 2
         excess.append(variance - range_sd_per_m**2 * float(np.mean(lever[own] ** 2)))
         weight.append(1 / max(variance, 1e-18) ** 2)
     return float(np.sqrt(max(np.average(excess, weights=weight), 0.0))) if excess else 0.0
@@ -84,7 +84,7 @@ def _near_plane(residual_per_m: Floats) -> Floats:
     below = residual_per_m[residual_per_m < 0]
     if len(below) == 0:
         return np.full_like(residual_per_m, np.nan)
-    limit = INLIER * float(np.median(-below)) / NORMAL_MEDIAN
+    limit = INLIER * MEDIAN_TO_SIGMA * float(np.median(-below))
     return np.where(np.abs(residual_per_m) <= limit, residual_per_m, np.nan)
 
 
@@ -132,7 +132,7 @@ def _clipped_variance(values: Floats) -> float:
     square = values[np.isfinite(values)] ** 2
     if len(square) < MIN_IN_BIN:
         return 0.0
-    variance = float(np.median(square)) / NORMAL_MEDIAN**2
+    variance = MEDIAN_TO_SIGMA**2 * float(np.median(square))
     if variance == 0:  # most values are equal
         variance = float(np.mean(square))
     for _ in range(ROUNDS):

@@ -8,9 +8,9 @@ the ground is nearer than the ground behind it along the same ray, so rocks lie 
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from rockshape.numerics.arrays import Floats
+from rockshape.numerics.robust_scale import MEDIAN_TO_SIGMA
 
 TRIED = 400  # planes through three points
 JUDGES = 1200  # points by which they are judged
@@ -18,7 +18,6 @@ SHARE = 0.35  # of the points is taken to be ground that any good plane must hav
 BELOW = 8.0  # how much a point far below a plane counts against it
 ROUNDS = 12
 CUT = 2.5  # scatters from the plane beyond which a point has no weight
-NORMAL_MEDIAN = 0.6745
 SEED = 20020309  # draws are fixed: equal points give equal planes
 
 
@@ -52,7 +51,7 @@ def fit_inverse_depth(rays: Floats, inverse_depth: Floats) -> InverseDepthPlane 
         residual = inverse_depth - rays @ coefficients
         below = residual[(residual < 0) & (residual > -6 * max(scatter, floor))]
         if len(below) > 10:
-            scatter = float(np.median(-below)) / NORMAL_MEDIAN
+            scatter = MEDIAN_TO_SIGMA * float(np.median(-below))
         scale = CUT * max(scatter, floor)
         weight = np.maximum(1 - (residual / scale) ** 2, 0) ** 2
         weighted = rays * weight[:, None]

@@ -1,9 +1,8 @@
 """What lies under heights and is nowhere steeper than ground can be."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from rockshape.numerics.arrays import Floats
 
 MAX_ROUNDS = 100  # cells across the widest rock
 

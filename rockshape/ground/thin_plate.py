@@ -1,10 +1,9 @@
 """The smooth surface through values on a grid, some of them missing."""
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import solveh_banded
 
-Singles = NDArray[np.float32]
+from rockshape.numerics.arrays import Singles
 
 SECOND = (1.0, -2.0, 1.0)
 FIRST = (-1.0, 1.0)

@@ -9,16 +9,12 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 import scipy.ndimage as ndi
-from numpy.typing import NDArray
 
 from rockshape.ground.noise_model import PIXEL_SHARE, NoiseModel
 from rockshape.ground.plane import Plane
 from rockshape.ground.slope_filter import gentle_below
 from rockshape.ground.thin_plate import bend
-
-Floats = NDArray[np.float64]
-Singles = NDArray[np.float32]
-Mask = NDArray[np.bool_]
+from rockshape.numerics.arrays import Floats, Mask, Singles
 
 COARSE_CELL = 0.03  # side of a cell over its distance from the camera's foot: to tell undulation
 FINE_CELL = 0.01  # and to follow it

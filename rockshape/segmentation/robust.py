@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rockshape.ground import Ground, fit_ground
+from rockshape.numerics.arrays import Labels
 from rockshape.observation import Observation
 from rockshape.rock.instances import Instances
 from rockshape.rock.visibility import measured_frame
@@ -18,8 +18,6 @@ from rockshape.segmentation.edges.image_edges import snapped, texture_of
 from rockshape.segmentation.flags import flag
 from rockshape.segmentation.relabel import in_reading_order, renumber
 from rockshape.segmentation.result import Branch, FoundRock, Segmentation, lacks_range
-
-Labels = NDArray[np.int32]
 
 
 def segment_both(observation: Observation) -> Segmentation:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.ellipsoid.half_axes import Ellipsoid
+from rockshape.numerics.robust_scale import MEDIAN_TO_SIGMA
 from rockshape.surface.basis import Knots, evaluate
 from rockshape.surface.normal_equations import Net, bending, factorise, normal_equations, rows
 
@@ -68,7 +69,7 @@ def measure_relief(
     if fit is None:
         return None
     misfit = np.abs(fit[1])
-    sound = misfit <= max(OUTLIER * 1.4826 * float(np.median(misfit)), MIN_OUTLIER)
+    sound = misfit <= max(OUTLIER * MEDIAN_TO_SIGMA * float(np.median(misfit)), MIN_OUTLIER)
     if not sound.all():
         fit = _bends(x[sound], y[sound], heights[sound])
     facing = cosine[keep][sound] > FACING

@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from synth.arrays import Floats
 from synth.errors import SpecError
 
-Floats = NDArray[np.float64]
 Reals = NDArray[np.floating[Any]]
 
 _ROUNDS = 30  # of Newton's method; four or five do for the lenses in use

@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from synth.camera.camera import PRESETS, Floats, Pose, RenderCamera, check_lens, look_at
+from synth.arrays import Floats
+from synth.camera.camera import PRESETS, Pose, RenderCamera, check_lens, look_at
 from synth.spec.view import CameraSpec, ViewsSpec
 
 

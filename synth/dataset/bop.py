@@ -8,13 +8,13 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 from scipy.spatial.distance import cdist
 
+from synth.arrays import Floats
 from synth.camera.camera import RenderCamera
 from synth.dataset.bop_canvas import Beyond, Canvas, Window, united
 from synth.geometry.mesh import Mesh
 from synth.render.view import Sight
 from synth.scene.scene import SceneModel
 
-Floats = NDArray[np.float64]
 Table = dict[str, Any]
 
 _NOWHERE = [-1, -1, -1, -1]  # BOP's box of a rock that is not seen

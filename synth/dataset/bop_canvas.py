@@ -8,12 +8,12 @@ from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 
+from synth.arrays import Floats
 from synth.camera.camera import Pose, RenderCamera, distorted, undistorted
 from synth.geometry.mesh import Mesh
 from synth.light.rays import directions
 from synth.scene.scene import SceneModel
 
-Floats = NDArray[np.float64]
 Window = tuple[int, int, int, int]  # first column and row, and those after the last
 
 _RAYS_AT_ONCE = 1 << 18

@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from synth.camera.camera import Pose, RenderCamera
 from synth.dataset.bop import model_info, object_id
@@ -12,7 +11,6 @@ from synth.render.view import Sight
 from synth.rocks.outlines import Form, mesh_form, plane_across
 from synth.scene.scene import PlacedRock, SceneModel
 
-Floats = NDArray[np.float64]
 Table = dict[str, Any]
 
 RESOLVABLE_PX = 3.0  # least radius of the corners in the image from which roundness can be told

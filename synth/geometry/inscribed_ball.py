@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linprog
 
-Floats = NDArray[np.float64]
+from synth.arrays import Floats
 
 _MAX_TRIED = 4000  # sets of touching faces; beyond, linear programming is faster
 _SLACK = 1e-10  # of the body's size: a face counts as respected

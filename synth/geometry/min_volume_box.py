@@ -3,11 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
-Floats = NDArray[np.float64]
+from synth.arrays import Floats
 
 _MAX_NORMALS = 48  # hull facets tried as a side of the box
 _TURNS = 30  # turns tried about each normal, over a right angle

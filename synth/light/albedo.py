@@ -5,8 +5,9 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from synth.arrays import Singles
 from synth.light.body import Body
-from synth.light.samples import Indices, Samples, Singles
+from synth.light.samples import Indices, Samples
 from synth.light.texture import pattern, wrapped
 from synth.spec.surface import SurfaceSpec
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from synth.geometry.mesh import Floats, Ints
+from synth.arrays import Floats, Ints
 
 
 @dataclass(frozen=True, eq=False)

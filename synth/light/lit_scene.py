@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from synth.geometry.mesh import Floats
+from synth.arrays import Floats
 from synth.light.body import Body
 from synth.light.painter import Painter
 

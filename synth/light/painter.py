@@ -10,8 +10,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from synth.arrays import Floats, Singles
 from synth.camera.camera import Pose, RenderCamera
-from synth.geometry.mesh import Floats
 from synth.light.albedo import Albedo
 from synth.light.body import Body
 from synth.light.photometry import EXPOSURE, SKY, light, towards_sun
@@ -21,7 +21,6 @@ from synth.light.shade import ShadowMap
 from synth.spec.surface import SurfaceSpec
 from synth.spec.view import SunSpec
 
-Singles = NDArray[np.float32]
 Indices = NDArray[np.int64]
 
 _ON_PLANE = 3e-4  # of the depth: farther from the plane than this, a point is on something else

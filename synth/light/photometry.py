@@ -5,11 +5,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from synth.arrays import Floats, Singles
 from synth.spec.surface import SurfaceSpec
 from synth.spec.view import SunSpec
 
-Floats = NDArray[np.float64]
-Singles = NDArray[np.float32]
 Reals = NDArray[np.floating[Any]]
 
 EXPOSURE = 1.35  # brightness of a white level surface under the whole light

@@ -8,10 +8,10 @@ from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 
+from synth.arrays import Singles
 from synth.camera.camera import Pose, RenderCamera, undistorted
 from synth.light.body import Body
 
-Singles = NDArray[np.float32]
 Indices = NDArray[np.int64]
 
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from synth.arrays import Singles
 from synth.camera.camera import RenderCamera
 
-Singles = NDArray[np.float32]
 Indices = NDArray[np.int64]
 
 

@@ -6,10 +6,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.geometry.mesh import Floats
+from synth.arrays import Floats, Singles
 from synth.light.body import Body
-
-Singles = NDArray[np.float32]
 
 _CELLS = 2048  # along the longer side
 _MIN_CELL_M = 0.01

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-Singles = NDArray[np.float32]
+from synth.arrays import Singles
 
 _SIZE = 1024  # texels of the tile's side
 TEXEL_M = 0.002

@@ -6,7 +6,7 @@ from typing import overload
 import numpy as np
 from numpy.typing import NDArray
 
-Mask = NDArray[np.bool_]
+from synth.arrays import Mask
 
 
 class Silhouettes(Sequence[Mask]):

@@ -5,12 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from synth.arrays import Floats
 from synth.camera.camera import Pose, RenderCamera, border_rays, project
 from synth.light import Stage
 from synth.render.interface import Renderer
 from synth.render.silhouettes import Silhouettes
-
-Floats = NDArray[np.float64]
 
 _NEAREST_M = 0.1  # what is nearer, or behind the camera, is not seen
 _SLACK = 0.05  # depth limits lie this far outside the scene's own, as a share

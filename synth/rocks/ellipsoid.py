@@ -3,16 +3,14 @@
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import elliprg
 
+from synth.arrays import Floats
 from synth.geometry.mesh import Mesh
 from synth.rocks.outlines import EllipsoidForm
 from synth.rocks.record import RockModel
 from synth.rocks.sphere import SUBDIVISIONS, unit_sphere
 from synth.rocks.truth import Truth
-
-Floats = NDArray[np.float64]
 
 
 def ellipsoid(half_axes_m: Floats) -> RockModel:

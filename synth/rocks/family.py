@@ -6,14 +6,13 @@ from typing import Literal
 
 import numpy as np
 from msgspec import Struct
-from numpy.typing import NDArray
 
+from synth.arrays import Floats
 from synth.errors import SpecError
 from synth.rocks.record import RockModel
 from synth.spec.registry import options_of
 from synth.spec.rocks import FAMILIES, RocksSpec
 
-Floats = NDArray[np.float64]
 Draw = Callable[[RocksSpec, Floats, np.random.Generator], RockModel]
 Grade = Callable[[RocksSpec, Sequence[tuple[Floats, float]], np.random.Generator], list[RockModel]]
 

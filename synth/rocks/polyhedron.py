@@ -6,10 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 
+from synth.arrays import Floats
 from synth.errors import SpecError
 from synth.geometry.inscribed_ball import largest_ball
-
-Floats = NDArray[np.float64]
 
 _DRAWS = 12  # candidates for each cut; the one farthest from the cuts so far is kept
 _ATTEMPTS = 100

@@ -7,12 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
+from synth.arrays import Floats
 from synth.geometry.mesh import Mesh, centroid_m, vertex_normals
 from synth.rocks.record import RockModel
 from synth.rocks.relief import boxed, displaced
 from synth.rocks.sphere import unit_sphere
-
-Floats = NDArray[np.float64]
 
 _CUT_SPREAD = 0.13  # deviation of the log of a cut's distance: some take much, most little
 _BED_SPREAD_RAD = 0.1  # between the two sides of a slab

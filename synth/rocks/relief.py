@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from synth.arrays import Floats
 from synth.errors import SpecError
 from synth.geometry.mesh import (
     Mesh,
@@ -20,8 +20,6 @@ from synth.rocks.record import RockModel
 from synth.rocks.resample import even_mesh
 from synth.rocks.sphere import SUBDIVISIONS, band_limited
 from synth.rocks.truth import Truth, half_axes_of_covariance_m
-
-Floats = NDArray[np.float64]
 
 _EDGES_PER_WAVE = 8.0
 _EDGE_RAD = 1.2  # of a facet's edge before the sphere is split, on average

@@ -2,15 +2,13 @@
 
 import numpy as np
 import trimesh
-from numpy.typing import NDArray
 from trimesh.ray.ray_pyembree import RayMeshIntersector
 
+from synth.arrays import Floats
 from synth.errors import SpecError
 from synth.geometry.mesh import Mesh, vertex_normals
 from synth.rocks.record import RockModel
 from synth.rocks.sphere import unit_sphere
-
-Floats = NDArray[np.float64]
 
 _MIN_LOOPS = 2
 _NUDGES = (0.0, 1e-5, -1e-5, 1e-4, -1e-4)  # turns of a ray that slipped through, rad

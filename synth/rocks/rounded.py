@@ -1,8 +1,8 @@
 """Rounded polyhedra and rounded boxes with given half-axes, P ⊕ B_r."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from synth.arrays import Floats
 from synth.geometry.mesh import centroid_m
 from synth.geometry.min_volume_box import nearby_box, smallest_box
 from synth.rocks.moments import rounded_moments
@@ -16,8 +16,6 @@ from synth.rocks.polyhedron import (
 from synth.rocks.record import RockModel
 from synth.rocks.rounding import rounded_area_m2, rounded_mesh, rounded_volume_m3
 from synth.rocks.truth import Truth, half_axes_of_covariance_m
-
-Floats = NDArray[np.float64]
 
 _ROUNDS = 4
 _STEPS = 12

@@ -1,13 +1,10 @@
 """Minkowski sum of a convex polyhedron and a ball: closed forms, and an exact mesh."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from synth.arrays import Floats, Ints
 from synth.geometry.mesh import Mesh
 from synth.rocks.polyhedron import Functionals, Polyhedron, angle_rad
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 _SAG_M = 5e-5  # the mesh stays this near the true surface: half a step of 0.1 mm depth
 _STEPS_RAD = (0.03, 0.2)  # limits of the angle between neighbouring normals

@@ -5,15 +5,13 @@ from dataclasses import replace
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
+from synth.arrays import Floats
 from synth.errors import SpecError
 from synth.rocks.family import Family, find_family
 from synth.rocks.record import RockModel
 from synth.rocks.relief import with_relief
 from synth.spec.rocks import RocksSpec
-
-Floats = NDArray[np.float64]
 
 
 def quarry(spec: RocksSpec, *, rng: np.random.Generator) -> list[RockModel]:

@@ -5,10 +5,8 @@ from functools import lru_cache
 
 import numpy as np
 import trimesh
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+from synth.arrays import Floats, Ints
 
 _DIGITS = 14  # to which equal heights are told
 SUBDIVISIONS = 5  # 20,480 faces: 0.04 mm from a surface of 0.2 m radius

@@ -3,15 +3,13 @@
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from synth.arrays import Floats
 from synth.geometry.mesh import Mesh
 from synth.rocks.outlines import SuperellipsoidForm
 from synth.rocks.record import RockModel
 from synth.rocks.sphere import unit_sphere
 from synth.rocks.truth import Truth
-
-Floats = NDArray[np.float64]
 
 NODES = 160  # Gauss-Legendre nodes along each of an octant's two angles
 SUBDIVISIONS = 6  # 81,920 faces: with exponents up to 10 the facets take 1e-3 of the volume

@@ -3,13 +3,11 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from synth.arrays import Floats
 from synth.geometry.mesh import Mesh, vertex_normals
 from synth.scene.pebbles import pebbles
 from synth.spec.ground import GroundSpec
-
-Floats = NDArray[np.float64]
 
 HALF_SIDE_M = 150.0
 _CELLS_PER_RIPPLE = 10

@@ -7,11 +7,10 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
+from synth.arrays import Floats
 from synth.errors import SpecError
 from synth.geometry.mesh import Mesh, vertex_normals
 from synth.spec.ground import GroundSpec
-
-Floats = NDArray[np.float64]
 
 _MAX_PEBBLES = 60_000
 _CORNERS = 22

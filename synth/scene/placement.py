@@ -6,12 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from synth.arrays import Floats
 from synth.camera.camera import Pose, RenderCamera, border_rays
 from synth.errors import SpecError
 from synth.geometry.mesh import Mesh
 from synth.spec.population import PopulationSpec
-
-Floats = NDArray[np.float64]
 
 _DARTS = 2000  # places tried at once for a rock
 _STARTS = 40  # fresh starts before the ground counts as full

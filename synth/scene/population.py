@@ -1,13 +1,11 @@
 """Rock populations by Golombek and Rapp: the number of rocks of each diameter."""
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import exp1
 
+from synth.arrays import Floats
 from synth.errors import SpecError
 from synth.spec.population import PopulationSpec
-
-Floats = NDArray[np.float64]
 
 MAX_ROCKS = 999  # in one scene, as object ids allow
 _TABLE = 4000  # diameters at which the counts are tabulated

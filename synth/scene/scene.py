@@ -6,9 +6,10 @@ from dataclasses import dataclass
 import msgspec
 import numpy as np
 
+from synth.arrays import Floats
 from synth.camera.camera import Pose, RenderCamera
 from synth.camera.trajectories import camera_distance_m, camera_of, stations
-from synth.geometry.mesh import Floats, Mesh
+from synth.geometry.mesh import Mesh
 from synth.rocks import RockModel, quarry
 from synth.scene.ground import Terrain, make_ground
 from synth.scene.placement import PlacementArea, frustum, refuse_crowd, scatter, strew

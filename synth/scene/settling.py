@@ -4,7 +4,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
-from synth.geometry.mesh import Floats, Mesh
+from synth.arrays import Floats
+from synth.geometry.mesh import Mesh
 from synth.rocks import RockModel
 
 _ONE_PLANE = 1e-6  # hull facets whose normals differ less are one side

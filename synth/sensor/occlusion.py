@@ -4,8 +4,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Mask = NDArray[np.bool_]
+from synth.arrays import Floats, Mask
 
 _STEP_PX = 1.0  # a surface nearer by more than this disparity hides what is behind it
 

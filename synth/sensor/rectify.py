@@ -7,8 +7,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from synth.arrays import Floats, Mask
 from synth.camera.camera import (
-    Floats,
     Reals,
     RenderCamera,
     border_rays,
@@ -18,7 +18,6 @@ from synth.camera.camera import (
 )
 
 Bytes = NDArray[np.uint8]
-Mask = NDArray[np.bool_]
 
 _STEP_PX = 1.0  # of disparity: neighbours farther apart lie on different surfaces
 _HOLE_PX = -1e6  # a disparity that no pixel has

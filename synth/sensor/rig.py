@@ -3,12 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from synth.arrays import Floats
 from synth.camera.camera import PRESETS
 from synth.errors import SpecError
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

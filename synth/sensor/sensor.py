@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 from msgspec import Struct
-from numpy.typing import NDArray
 
+from synth.arrays import Floats
 from synth.camera.camera import Pose, RenderCamera
 from synth.errors import SpecError
 from synth.light import Stage
@@ -17,8 +17,6 @@ from synth.sensor.exposure import Picture, take_picture
 from synth.sensor.seeds import Use, stream
 from synth.spec import SceneSpec
 from synth.spec.sensor import SENSORS
-
-Floats = NDArray[np.float64]
 
 # Folders of a scene that every dataset has; a sensor's own have other names.
 COMMON_FOLDERS = ("gray", "depth", "depth_true", "labels", "mask", "mask_visib", "models")

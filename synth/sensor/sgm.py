@@ -4,6 +4,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from synth.arrays import Floats
 from synth.camera.camera import right_eye
 from synth.sensor.exposure import eight_bits
 from synth.sensor.rectify import Rectification, rectification_of
@@ -11,7 +12,6 @@ from synth.sensor.rig import rig_of
 from synth.sensor.seeds import Use
 from synth.sensor.sensor import Capture, Sensor, SensorInput
 
-Floats = NDArray[np.float64]
 Bytes = NDArray[np.uint8]
 
 _STEPS = 16  # OpenCV's disparities count sixteenths of a pixel

@@ -4,14 +4,13 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from synth.arrays import Floats
 from synth.sensor.occlusion import contrast, half_occluded
 from synth.sensor.rectify import Rectification, rectification_of
 from synth.sensor.rig import Rig, rig_of
 from synth.sensor.seeds import Use
 from synth.sensor.sensor import Capture, Sensor, SensorInput
 from synth.spec.sensor import NoiseSpec
-
-Floats = NDArray[np.float64]
 
 _RIM_PX = 2  # the pull is the mean over a window this much smaller: its rim counts less
 

@@ -8,12 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 from skimage.draw import polygon as polygon_pixels
 
+from synth.arrays import Floats
 from synth.errors import SpecError
 from synth.shapes.outline import axis_ratio
 from synth.shapes.series import Shape, shape_series
 from synth.spec.shapes import CHART, JITTER_RMS_PX, MAX_JITTER_PX
-
-Floats = NDArray[np.float64]
 
 _CELL_PX = 260  # a shape's share of the row
 _CHART_COLUMNS = 9

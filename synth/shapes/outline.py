@@ -4,9 +4,8 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from synth.arrays import Floats
 
 _ARC_STEP_RAD = 0.02
 _SINGULAR = 1e-9  # three edges that determine no disc

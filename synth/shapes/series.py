@@ -4,14 +4,12 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from synth.arrays import Floats
 from synth.errors import SpecError
 from synth.shapes.outline import RoundedPolygon, largest_disc_px, rectangle
 from synth.spec.shapes import CHART, SERIES_NAMES
 from synth.spec.wording import expected_one_of
-
-Floats = NDArray[np.float64]
 
 LONG_SIDE_PX = 200.0
 _ROUNDNESS = (0.03, 0.75)  # ends of the series `roundness`

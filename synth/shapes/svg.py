@@ -2,13 +2,9 @@
 
 from collections.abc import Sequence
 
-import numpy as np
-from numpy.typing import NDArray
-
+from synth.arrays import Floats
 from synth.shapes.outline import RoundedPolygon
 from synth.shapes.series import Shape
-
-Floats = NDArray[np.float64]
 
 _EVERY = 2  # points of the pen's line that are kept: one a pixel
 _PAPER, _FILL, _INK = "#ececec", "#a8a8a8", "#282828"

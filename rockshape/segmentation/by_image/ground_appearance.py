@@ -7,8 +7,8 @@ import numpy as np
 import scipy.ndimage as ndi
 from numpy.typing import NDArray
 
-Singles = NDArray[np.float32]
-Mask = NDArray[np.bool_]
+from rockshape.numerics.arrays import Mask, Singles
+from rockshape.numerics.robust_scale import MEDIAN_TO_SIGMA
 
 BLUR_PX = 1.5
 LARGEST_BLOCK_PX, SMALLEST_BLOCK_PX, BLOCKS = 32, 8, 12
@@ -81,7 +81,7 @@ def _ground(light: Singles, odd: Mask, block: int) -> tuple[Singles, Singles]:
     if not bare.any():
         bare = count == count.max()
     middle = _median(values, count)
-    scatter = 1.4826 * _median(np.sort(np.abs(values - middle[..., None]), axis=2), count)
+    scatter = MEDIAN_TO_SIGMA * _median(np.sort(np.abs(values - middle[..., None]), axis=2), count)
     nearest = ndi.distance_transform_edt(~bare, return_distances=False, return_indices=True)
     size = (cols, rows)
     ground, texture = (

@@ -3,14 +3,13 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from rockshape.numerics.arrays import Labels
 from rockshape.outline.polygon_fill import Window, inside_of
 from rockshape.segmentation.by_image.ground_appearance import read_lightness
 from rockshape.segmentation.by_image.proposal_score import features_of, likelihood
 from rockshape.segmentation.by_image.proposal_seeds import MIN_PIXELS
 from rockshape.segmentation.by_image.star_proposals import propose
 from rockshape.segmentation.by_range.height_signal import HeightSignal
-
-Labels = NDArray[np.int32]
 
 GOOD_ENOUGH = 0.4
 MAX_SHARED = 0.25  # of an outline may be another's already

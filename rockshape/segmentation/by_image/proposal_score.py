@@ -2,13 +2,10 @@
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
 
+from rockshape.numerics.arrays import Floats, Mask
 from rockshape.segmentation.by_image.proposal_weights import FORM, MIDDLE, SPREAD
 from rockshape.segmentation.by_image.star_proposals import RINGS, Stars
-
-Floats = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 CLEAREST = 6.0  # edges above this many of the texture's deviations per pixel are all alike
 WEAK = 1.0

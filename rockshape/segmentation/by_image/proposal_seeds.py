@@ -4,10 +4,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from rockshape.numerics.arrays import Floats, Mask
 from rockshape.segmentation.by_image.ground_appearance import Lightness
-
-Floats = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 MIN_PIXELS = 60
 DEPTHS_PX = (3, 6, 10, 16, 24)  # cores: what lies so deep within the border,

@@ -6,12 +6,10 @@ import numpy as np
 import scipy.ndimage as ndi
 from numpy.typing import NDArray
 
+from rockshape.numerics.arrays import Floats, Mask
 from rockshape.segmentation.by_image.ground_appearance import DARK, Lightness
 from rockshape.segmentation.by_image.proposal_seeds import find_seeds
 from rockshape.segmentation.edges.shortest_path import closed_paths
-
-Floats = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 RAYS, RINGS = 64, 48
 REACH, EXTRA_PX = 1.8, 8.0  # a rock ends within so many radii of its seed, and so many pixels

@@ -7,9 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.ground import Ground, NoiseModel
-
-Singles = NDArray[np.float32]
-Mask = NDArray[np.bool_]
+from rockshape.numerics.arrays import Mask, Singles
 
 FOOT_SIGMA = 2.5  # a rock begins this many standard deviations above the ground
 STAND_SIGMA = 5.0  # and somewhere it stands this many above it,

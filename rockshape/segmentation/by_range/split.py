@@ -12,12 +12,10 @@ import numpy as np
 import scipy.ndimage as ndi
 from numpy.typing import NDArray
 
+from rockshape.numerics.arrays import Floats, Mask, Singles
 from rockshape.segmentation.by_range.height_signal import HeightSignal
 
-Mask = NDArray[np.bool_]
 Whole = NDArray[np.intp]
-Singles = NDArray[np.float32]
-Floats = NDArray[np.float64]
 
 BUMP_SIGMA = 4.0  # a top stands this many standard deviations above its saddle, or is a bump
 BUMP_SHARE = 0.1  # and this share of its own height

@@ -13,13 +13,12 @@ import numpy as np
 import scipy.ndimage as ndi
 from numpy.typing import NDArray
 
+from rockshape.numerics.arrays import Floats, Singles
+from rockshape.numerics.robust_scale import MEDIAN_TO_SIGMA
 from rockshape.outline.polygon_fill import inside_of
 from rockshape.outline.resample import outline_length, smooth_evenly
 from rockshape.outline.trace import signed_area
 from rockshape.segmentation.edges.shortest_path import closed_paths
-
-Singles = NDArray[np.float32]
-Floats = NDArray[np.float64]
 
 REACH_PX = 6.0  # how far an edge may lie from the outline
 LANE_PX = 0.5
@@ -30,7 +29,6 @@ BEND = 0.35  # cost of moving by a lane from one pixel of the outline to the nex
 CLEAR = 2.5  # edges of this strength tell how far range is off
 SHARPEST_PX = 0.4  # range's outlines are never taken to be surer than this
 OVERLAP = 40
-NORMAL_MEDIAN = 0.6745
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,7 +155,7 @@ def _bleeding(
     if len(every) == 0:
         return 0.0, SHARPEST_PX
     middle = float(np.median(every))
-    return middle, float(np.median(np.abs(every - middle))) / NORMAL_MEDIAN
+    return middle, MEDIAN_TO_SIGMA * float(np.median(np.abs(every - middle)))
 
 
 def _outline(ring: _Ring, cost: Singles, path: NDArray[np.intp], lanes: Singles) -> SnappedOutline:

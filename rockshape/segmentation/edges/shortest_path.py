@@ -3,10 +3,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float32]
+from rockshape.numerics.arrays import Singles
 
 
-def cheapest_paths(cost: Floats, *, bend: NDArray[np.float32]) -> NDArray[np.intp]:
+def cheapest_paths(cost: Singles, *, bend: NDArray[np.float32]) -> NDArray[np.intp]:
     """The lane of each step on the cheapest path along each band, (bands, steps).
 
     cost is (bands, steps, lanes); a path moves by at most one lane a step, which costs bend
@@ -39,7 +39,7 @@ def cheapest_paths(cost: Floats, *, bend: NDArray[np.float32]) -> NDArray[np.int
 
 
 def closed_paths(
-    cost: list[Floats], *, bend: NDArray[np.float32], overlap: int
+    cost: list[Singles], *, bend: NDArray[np.float32], overlap: int
 ) -> list[NDArray[np.intp]]:
     """The lane of each step on the cheapest closed path round each ring.
 

@@ -3,14 +3,12 @@
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from synth.arrays import Floats
 from synth.rocks.family import Family
 from synth.rocks.record import RockModel
 from synth.rocks.rounded import rounded_box
 from synth.spec.rocks import RocksSpec
-
-Floats = NDArray[np.float64]
 
 
 def _draw(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> RockModel:

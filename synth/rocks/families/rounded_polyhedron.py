@@ -3,16 +3,14 @@
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from synth.arrays import Floats
 from synth.errors import SpecError
 from synth.rocks.family import Family
 from synth.rocks.polyhedron import tangent_cuts
 from synth.rocks.record import RockModel
 from synth.rocks.rounded import UnsettledError, rounded_polyhedron
 from synth.spec.rocks import RocksSpec
-
-Floats = NDArray[np.float64]
 
 _ATTEMPTS = 60
 

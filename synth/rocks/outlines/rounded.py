@@ -3,13 +3,11 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
+from synth.arrays import Floats
 from synth.geometry.inscribed_ball import largest_ball
 from synth.rocks.outlines.record import OutlineTruth, axis_ratio
-
-Floats = NDArray[np.float64]
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)  # exact to rounding on arcs up to π
 

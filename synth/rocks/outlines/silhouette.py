@@ -3,14 +3,11 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from synth.arrays import Floats, Ints
 from synth.geometry.mesh import Mesh
 from synth.rocks.outlines.record import OutlineTruth, polygon_outline
 from synth.rocks.outlines.smoothed import SCALE, smoothed_roundness
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 BEARINGS = 8192  # half as many move every number by less than 1e-3
 

@@ -3,12 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import ellipe
 
+from synth.arrays import Floats
 from synth.rocks.outlines.record import OutlineTruth, polygon_outline
-
-Floats = NDArray[np.float64]
 
 DIRECTIONS = 8192  # tangents of a superellipsoid's outline; half as many move it by < 1e-3
 

@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 from scipy.signal import find_peaks
 from scipy.spatial import Delaunay
 
-Floats = NDArray[np.float64]
+from synth.arrays import Floats
 
 SCALE = 0.07  # deviation of the smoothing over the radius of the disc of the outline's area
 _POINTS = 2048  # of the smoothed outline: some twenty in the smoothing's deviation

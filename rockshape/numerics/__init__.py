@@ -1,0 +1,1 @@
+"""Array types and robust statistics that all parts of the package share."""

@@ -1,0 +1,1 @@
+"""Validity of measured points, decided once, before anything is fitted to them."""

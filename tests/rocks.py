@@ -1,5 +1,7 @@
 """One rock of known geometry as a RockView, and the motions under which its shape stays."""
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -157,13 +159,6 @@ def with_outline(view: RockView, outline_px: NDArray[np.float64]) -> RockView:
 
 
 def _with(view: RockView, name: str, values: NDArray[np.float64]) -> RockView:
-    changed = RockView(
-        mask=view.mask,
-        corner=view.corner,
-        grid_m=view.grid_m,
-        camera=view.camera,
-        ground=view.ground,
-        frame=view.frame,
-    )
+    changed = replace(view)
     changed.__dict__[name] = values  # where a cached property keeps what it has made
     return changed

@@ -28,6 +28,8 @@ refuses rocks that the frame cuts or less than 4 px wide.
 Source: Fox et al. (2002), equations 6 and 7 and figure 3.
 """
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -106,24 +108,17 @@ PAPER = Measure(
     title="2-D angularity",
     paper_name="2-D angularity",
     unit="°",
-    needs_range=False,
     min_points=2 * BETA - 1,
     evaluate=_evaluate,
     expected_trait="angularity",
     view_truth="outline_angularity",
     value_range=(0.0, 180.0),
 )
-
-ROBUST = Measure(
+ROBUST = replace(
+    PAPER,
     column="angularity_2d",
-    title="2-D angularity",
-    paper_name="2-D angularity",
     unit="",
-    needs_range=False,
-    min_points=2 * BETA - 1,
     evaluate=_read_robust,
     whole=True,
-    expected_trait="angularity",
-    view_truth="outline_angularity",
     value_range=(0.0, float(np.pi)),
 )

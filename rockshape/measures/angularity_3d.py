@@ -27,6 +27,8 @@ Degenerate: NaN where the surface is undetermined or, `robust`, the ellipsoid.
 Source: Fox et al. (2002), equations 12 to 17.
 """
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -100,13 +102,11 @@ PAPER = Measure(
     evaluate=_evaluate,
     expected_trait="angularity",
 )
-ROBUST = Measure(
+ROBUST = replace(
+    PAPER,
     column="angularity_3d",
-    title="3-D angularity",
-    paper_name="3-D angularity",
     unit="",
-    needs_range=True,
     min_points=MIN_FACING,
     evaluate=_evaluate_relief,
-    expected_trait="angularity",
+    constrained=True,
 )

@@ -25,6 +25,8 @@ Source: Fox et al. (2002), section 2, Ellipse Fitting; Halíř and Flusser (1998
 and Kanazawa (2016).
 """
 
+from dataclasses import replace
+
 from rockshape.ellipse.direct import MIN_POINTS, Ellipse
 from rockshape.measures.measure import Measure
 from rockshape.measures.reading import Reason
@@ -56,8 +58,6 @@ PAPER = Measure(
     column="axis_ratio",
     title="axis ratio",
     paper_name="eccentricity",
-    unit="",
-    needs_range=False,
     min_points=MIN_POINTS,
     evaluate=_evaluate,
     expected_trait="form",
@@ -65,17 +65,4 @@ PAPER = Measure(
     equals=("axis_ratio", "outline_axis_ratio"),
     value_range=(0.0, 1.0),
 )
-
-ROBUST = Measure(
-    column="axis_ratio",
-    title="axis ratio",
-    paper_name="eccentricity",
-    unit="",
-    needs_range=False,
-    min_points=MIN_POINTS,
-    evaluate=_read_robust,
-    expected_trait="form",
-    view_truth="outline_axis_ratio",
-    equals=("axis_ratio", "outline_axis_ratio"),
-    value_range=(0.0, 1.0),
-)
+ROBUST = replace(PAPER, evaluate=_read_robust)

@@ -27,6 +27,8 @@ less than 4 px wide.
 Source: Fox et al. (2002), section 2, Ellipse Fitting, and figure 2.
 """
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -81,22 +83,9 @@ PAPER = Measure(
     title="ellipse error",
     paper_name="ellipse fitting error",
     unit="px²",
-    needs_range=False,
     min_points=MIN_POINTS,
     evaluate=_evaluate,
     expected_trait="angularity",
     view_truth="outline_angularity",
 )
-
-ROBUST = Measure(
-    column="ellipse_error",
-    title="ellipse error",
-    paper_name="ellipse fitting error",
-    unit="",
-    needs_range=False,
-    min_points=MIN_POINTS,
-    evaluate=_read_robust,
-    whole=True,
-    expected_trait="angularity",
-    view_truth="outline_angularity",
-)
+ROBUST = replace(PAPER, column="ellipse_error", unit="", evaluate=_read_robust, whole=True)

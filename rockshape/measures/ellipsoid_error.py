@@ -22,6 +22,8 @@ Degenerate: as 3-D sphericity.
 Source: Fox et al. (2002), section 2, Ellipsoid Fitting, after equation 11.
 """
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -91,13 +93,6 @@ PAPER = Measure(
     evaluate=_evaluate,
     expected_trait="angularity",
 )
-ROBUST = Measure(
-    column="ellipsoid_error",
-    title="ellipsoid error",
-    paper_name="ellipsoid fitting error",
-    unit="",
-    needs_range=True,
-    min_points=MIN_POINTS,
-    evaluate=_evaluate_held,
-    expected_trait="angularity",
+ROBUST = replace(
+    PAPER, column="ellipsoid_error", unit="", evaluate=_evaluate_held, constrained=True
 )

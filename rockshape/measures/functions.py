@@ -12,9 +12,6 @@ calibrated from its points where none is given.
 The result is a `Reading`: a float that tells its unit and, where it is NaN, the reason.
 """
 
-from collections.abc import Mapping
-from typing import TypeVar
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -37,27 +34,29 @@ from rockshape.rock.view import RockView
 
 SURE_RESIDUAL_PX = 0.5  # of a camera calibrated from the grid
 
-_Choice = TypeVar("_Choice")
-
 
 def axis_ratio(rock: ArrayLike, *, method: str = "robust") -> Reading:
     """Axis ratio b/a of a mask or outline."""
-    return _flat(rock, method, {"robust": _axis_ratio.ROBUST, "paper": _axis_ratio.PAPER})
+    measure = _choose(method, robust=_axis_ratio.ROBUST, paper=_axis_ratio.PAPER)
+    return measure.read(_flat_view(rock))
 
 
 def ellipse_error(rock: ArrayLike, *, method: str = "robust") -> Reading:
     """Ellipse fitting error of a mask or outline; `paper` in px²."""
-    return _flat(rock, method, {"robust": _ellipse_error.ROBUST, "paper": _ellipse_error.PAPER})
+    measure = _choose(method, robust=_ellipse_error.ROBUST, paper=_ellipse_error.PAPER)
+    return measure.read(_flat_view(rock))
 
 
 def sphericity_2d(rock: ArrayLike, *, method: str = "robust") -> Reading:
     """2-D sphericity, the aspect ratio, of a mask or outline."""
-    return _flat(rock, method, {"robust": _sphericity_2d.ROBUST, "paper": _sphericity_2d.PAPER})
+    measure = _choose(method, robust=_sphericity_2d.ROBUST, paper=_sphericity_2d.PAPER)
+    return measure.read(_flat_view(rock))
 
 
 def angularity_2d(rock: ArrayLike, *, method: str = "robust") -> Reading:
     """2-D angularity of a mask or outline; `paper` in degrees."""
-    return _flat(rock, method, {"robust": _angularity_2d.ROBUST, "paper": _angularity_2d.PAPER})
+    measure = _choose(method, robust=_angularity_2d.ROBUST, paper=_angularity_2d.PAPER)
+    return measure.read(_flat_view(rock))
 
 
 def roundness(rock: ArrayLike) -> Reading:
@@ -73,9 +72,8 @@ def ellipsoid_error(
     ground: Ground | Plane | None = None,
 ) -> Reading:
     """Ellipsoid fitting error of points; `paper` in m²."""
-    if _choose({"robust": True, "paper": False}, method):
-        return _held(points_m, _ellipsoid_error.ROBUST, camera=camera, ground=ground)
-    return _ellipsoid_error.PAPER.read(_points_view(points_m))
+    measure = _choose(method, robust=_ellipsoid_error.ROBUST, paper=_ellipsoid_error.PAPER)
+    return _solid(points_m, measure, camera=camera, ground=ground)
 
 
 def sphericity_3d(
@@ -86,9 +84,8 @@ def sphericity_3d(
     ground: Ground | Plane | None = None,
 ) -> Reading:
     """Maximum projection sphericity of points."""
-    if _choose({"robust": True, "paper": False}, method):
-        return _held(points_m, _sphericity_3d.ROBUST, camera=camera, ground=ground)
-    return _sphericity_3d.PAPER.read(_points_view(points_m))
+    measure = _choose(method, robust=_sphericity_3d.ROBUST, paper=_sphericity_3d.PAPER)
+    return _solid(points_m, measure, camera=camera, ground=ground)
 
 
 def angularity_3d(
@@ -99,16 +96,12 @@ def angularity_3d(
     ground: Ground | Plane | None = None,
 ) -> Reading:
     """3-D angularity of points; `paper` in 1/m."""
-    if _choose({"robust": True, "paper": False}, method):
-        return _held(points_m, _angularity_3d.ROBUST, camera=camera, ground=ground)
-    return _angularity_3d.PAPER.read(_points_view(points_m))
+    measure = _choose(method, robust=_angularity_3d.ROBUST, paper=_angularity_3d.PAPER)
+    return _solid(points_m, measure, camera=camera, ground=ground)
 
 
-def _flat(rock: ArrayLike, method: str, readings: Mapping[str, Measure]) -> Reading:
-    return _choose(readings, method).read(_flat_view(rock))
-
-
-def _choose(readings: Mapping[str, _Choice], method: str) -> _Choice:
+def _choose(method: str, *, robust: Measure, paper: Measure) -> Measure:
+    readings = {"robust": robust, "paper": paper}
     if method not in readings:
         raise unknown_name("method", method, readings)
     return readings[method]
@@ -154,15 +147,17 @@ def _points_view(points_m: ArrayLike) -> RockView:
     return RockView(mask=np.asarray(np.isfinite(grid).all(axis=-1)), grid_m=grid)
 
 
-def _held(
+def _solid(
     points_m: ArrayLike,
     measure: Measure,
     *,
     camera: PinholeLike | None,
     ground: Ground | Plane | None,
 ) -> Reading:
-    """Reading of the constrained ellipsoid, which needs the grid, the camera and the ground."""
+    """Reading of points; what constrains the ellipsoid is asked for only where it is used."""
     view = _points_view(points_m)
+    if not measure.constrained:
+        return measure.read(view)
     grid = view.grid_m
     if grid is None or np.ndim(points_m) == 2:
         return Reading(NAN, measure.unit, Reason.NO_GRID)

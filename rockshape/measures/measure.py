@@ -29,13 +29,14 @@ class Measure:
 
     column: str
     title: str  # the field's term
-    unit: str  # empty for a pure number
-    needs_range: bool
     min_points: int  # outline points, or range points where it needs range, below which it is NaN
     evaluate: Callable[[RockView], float | Reason]
+    unit: str = ""  # of a pure number, none
+    needs_range: bool = False
     evaluate_batch: Callable[[Sequence[RockView]], Sequence[float | Reason]] | None = None
     paper_name: str = ""  # what Fox et al. (2002) call it; empty where they have no such measure
     whole: bool = False  # refuses a rock that the frame has cut
+    constrained: bool = False  # its ellipsoid also touches the silhouette and rests on the ground
     expected_trait: Trait | None = None  # the trait that it rises with; None: not judged
     view_truth: str = ""  # truth of a view's outline that its values rank, `outline_roundness` say
     equals: tuple[str, ...] = ()  # truths that are the same quantity: the difference is an error

@@ -36,9 +36,6 @@ def _read_robust(rock: RockView) -> float | Reason:
 ROBUST = Measure(
     column="roundness",
     title="roundness",
-    paper_name="",
-    unit="",
-    needs_range=False,
     min_points=MIN_POINTS,
     evaluate=_read_robust,
     whole=True,

@@ -24,6 +24,8 @@ less than 4 px wide.
 Source: Fox et al. (2002), section 3, Sphericity Test; Feret (1930).
 """
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -62,8 +64,6 @@ PAPER = Measure(
     column="sphericity_2d",
     title="2-D sphericity",
     paper_name="2-D sphericity",
-    unit="",
-    needs_range=False,
     min_points=1,
     evaluate=_evaluate,
     expected_trait="form",
@@ -71,18 +71,4 @@ PAPER = Measure(
     equals=("rectangle_ratio",),
     value_range=(0.0, 1.0),
 )
-
-ROBUST = Measure(
-    column="sphericity_2d",
-    title="2-D sphericity",
-    paper_name="2-D sphericity",
-    unit="",
-    needs_range=False,
-    min_points=1,
-    evaluate=_read_robust,
-    whole=True,
-    expected_trait="form",
-    view_truth="outline_axis_ratio",
-    equals=("rectangle_ratio",),
-    value_range=(0.0, 1.0),
-)
+ROBUST = replace(PAPER, evaluate=_read_robust, whole=True)

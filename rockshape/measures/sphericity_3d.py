@@ -22,6 +22,8 @@ stands at its bound) and a search that did not converge.
 Source: Sneed and Folk (1958); Fox et al. (2002), equation 2, which names it beside Krumbein's.
 """
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -55,7 +57,6 @@ PAPER = Measure(
     column="sphericity_3d",
     title="3-D sphericity",
     paper_name="3-D sphericity",
-    unit="",
     needs_range=True,
     min_points=MIN_POINTS,
     evaluate=_evaluate,
@@ -63,15 +64,4 @@ PAPER = Measure(
     equals=("maximum_projection_sphericity",),
     value_range=(0.0, 1.0),
 )
-ROBUST = Measure(
-    column="sphericity_3d",
-    title="3-D sphericity",
-    paper_name="3-D sphericity",
-    unit="",
-    needs_range=True,
-    min_points=MIN_POINTS,
-    evaluate=_evaluate_held,
-    expected_trait="form",
-    equals=("maximum_projection_sphericity",),
-    value_range=(0.0, 1.0),
-)
+ROBUST = replace(PAPER, evaluate=_evaluate_held, constrained=True)

@@ -39,3 +39,26 @@ class Kind:
                 f"kind {self.name!r}: expected {self.spec.__name__} with tag={self.name!r}, "
                 f"found {tag!r}"
             )
+
+
+def folder_kind(
+    package: str,
+    spec: type[Experiment],
+    *,
+    work: str = "",
+    aliases: tuple[str, ...] = (),
+    adopts: Callable[[Table], bool] | None = None,
+) -> Kind:
+    """Kind of a folder that holds the modules `work`, `judge` and `page`, called as its spec's tag.
+
+    `work` names another module where the kind does the work of another.
+    """
+    return Kind(
+        name=str(spec.__struct_config__.tag),
+        spec=spec,
+        work=work or f"{package}.work",
+        judge=f"{package}.judge",
+        page=f"{package}.page",
+        aliases=aliases,
+        adopts=adopts,
+    )

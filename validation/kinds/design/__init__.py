@@ -3,22 +3,12 @@
 from typing import TYPE_CHECKING
 
 from validation.kinds.design.spec import DesignExperiment
-from validation.suite.kind import Kind
+from validation.suite.kind import folder_kind
 
-KIND = Kind(
-    name="design",
-    spec=DesignExperiment,
-    work="validation.kinds.design.work",
-    judge="validation.kinds.design.judge",
-    page="validation.kinds.design.page",
-)
+KIND = folder_kind(__name__, DesignExperiment)
 
 if TYPE_CHECKING:  # the modules hold what their protocols ask
-    from validation.execution.work import Work
     from validation.kinds.design import judge, page, work
-    from validation.report.section import Page
-    from validation.scores.judge import Judge
+    from validation.kinds.modules import Modules
 
-    _WORK: Work[DesignExperiment] = work
-    _JUDGE: Judge[DesignExperiment] = judge
-    _PAGE: Page[DesignExperiment] = page
+    _MODULES: Modules[DesignExperiment] = work, judge, page

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from validation.kinds.garden.spec import GardenExperiment
-from validation.suite.kind import Kind, Table
+from validation.suite.kind import Table, folder_kind
 
 
 def _is_pan(table: Table) -> bool:
@@ -12,23 +12,17 @@ def _is_pan(table: Table) -> bool:
     return bool((scene.get("views") or {}).get("path") == "pan" and not table.get("sweep"))
 
 
-KIND = Kind(
-    name="garden",
-    spec=GardenExperiment,
+KIND = folder_kind(
+    __name__,
+    GardenExperiment,
     work="validation.kinds.multiview.work",
-    judge="validation.kinds.garden.judge",
-    page="validation.kinds.garden.page",
     aliases=("yard",),
     adopts=_is_pan,
 )
 
 if TYPE_CHECKING:  # the modules hold what their protocols ask
-    from validation.execution.work import MeasuredWork
     from validation.kinds.garden import judge, page
+    from validation.kinds.modules import MeasuredModules
     from validation.kinds.multiview import work
-    from validation.report.section import Page
-    from validation.scores.judge import Judge
 
-    _WORK: MeasuredWork[GardenExperiment] = work
-    _JUDGE: Judge[GardenExperiment] = judge
-    _PAGE: Page[GardenExperiment] = page
+    _MODULES: MeasuredModules[GardenExperiment] = work, judge, page

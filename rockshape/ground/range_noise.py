@@ -50,7 +50,10 @@ def estimate_range_noise(residual_per_m: Floats, lever_m2: Floats) -> tuple[floa
 
 
 def _range_variance(error: Floats, lever_m2: Floats, *, lag: int) -> float:
-    """Variance of 1/Z by range noise from second differences; 0 where too few are known."""
+    """Variance of 1/Z by range noise from second differences; 0 where too few are known.
+
+    A bin without scatter has neither noise nor roughness, and range is exact.
+    """
     second = _second_differences(error, lag)
     lever = np.broadcast_to(lever_m2, error.shape)[:, lag:-lag][np.isfinite(second)]
     second = second[np.isfinite(second)]
@@ -58,6 +61,8 @@ def _range_variance(error: Floats, lever_m2: Floats, *, lag: int) -> float:
     if not bins:
         return 0.0
     variance = np.array([_clipped_variance(second[own]) / 6 for own in bins])
+    if variance.min() == 0:
+        return 0.0
     steepness = np.array([np.mean(lever[own] ** -2) for own in bins])
     return _offset(steepness, variance)
 
@@ -144,13 +149,14 @@ def _clipped_variance(values: Floats) -> float:
 
 
 def _offset(x: Floats, y: Floats) -> float:
-    """Value at x = 0 of the line through points (n,) of y, neither falling nor below 0 there.
+    """Value at x = 0 of the line through points (n,) of y > 0, neither falling nor below 0 there.
 
     Least squares of relative errors. Where x hardly varies the line is level.
     """
-    weight = 1 / np.maximum(y, 1e-300)
+    least = float(y.min())
+    weight = least / y
     rows = np.column_stack([weight, x * weight])
     offset, slope = np.linalg.lstsq(rows, y * weight, rcond=None)[0]
     if slope < 0 or x.max() < SEPARABLE * x.min():
-        return float(weight.sum() / (weight**2).sum())
+        return least * float(weight.sum() / (weight**2).sum())
     return max(float(offset), 0.0)

@@ -122,6 +122,17 @@ def test_exact_range_has_no_noise() -> None:
     assert not NoiseModel(1e-3, 7, 0.0, PIXEL_RAD).is_fine(2.0)
 
 
+@pytest.mark.filterwarnings("error::RuntimeWarning")
+def test_exact_range_whose_rounding_vanishes_somewhere_has_no_noise(
+    rng: np.random.Generator,
+) -> None:
+    depth = np.tile(np.linspace(2.0, 3.0, 60)[:, None], (1, 600))
+    rounding = rng.normal(scale=6e-17, size=depth.shape)
+    rounding[:12] = np.where(rng.random((12, 600)) < 0.01, 6e-17, 0.0)  # nearest: in one bin
+    sd_per_m, window_px = estimate_range_noise(rounding, CAMERA_HEIGHT_M * depth)
+    assert (sd_per_m, window_px) == (0.0, 1)
+
+
 def test_exact_range_on_ripples_is_still_exact() -> None:
     noise = noise_of(GROUNDS["rippled"])
     assert noise.inverse_depth_sd_per_m * FOCAL_BASELINE_PX_M < 0.01

@@ -16,6 +16,7 @@ import argparse
 import sys
 from collections.abc import Sequence
 from importlib.metadata import EntryPoint, entry_points, version
+from io import TextIOWrapper
 from typing import Protocol, cast
 
 from rockshape.commands.parser import CommandParser, examples
@@ -74,27 +75,33 @@ def main(argv: Sequence[str] | None = None) -> int:
     if "run" not in args:
         parser.print_help()
         return 0
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
     try:
         return int(args.run(args))
     except BrokenPipeError:
         sys.stdout = None  # whoever read the output has gone, nothing is left to flush
         return 0
-    except OSError as error:
-        _complain(f"{error.filename or 'output'}: {error.strerror}")
-        return 2
-    except Exception as error:
-        status = getattr(error, "exit_status", None)
-        if not isinstance(status, int):
-            raise
-        _complain(str(error))
+    except (Exception, SystemExit, KeyboardInterrupt) as error:
+        status, text = _explained(error)
+        print(one_line(f"rockshape: {text}"), file=sys.stderr)
         return status
-    except KeyboardInterrupt:
-        print("rockshape: interrupted", file=sys.stderr)
-        return 130
 
 
-def _complain(message: str) -> None:
-    print(one_line(f"rockshape: {message}"), file=sys.stderr)
+def _explained(error: BaseException) -> tuple[int, str]:
+    """Exit status and message of what ended a command; a defect is raised again."""
+    match error:
+        case KeyboardInterrupt():
+            return getattr(error, "exit_status", 130), "interrupted"
+        case SystemExit():  # of foreign code: no command of ours leaves in this way
+            return 3, f"expected an end of the command, found sys.exit({error.code!r}) within it"
+        case OSError():
+            return 2, f"{error.filename or 'output'}: {error.strerror or error}"
+    status = getattr(error, "exit_status", None)
+    if not isinstance(status, int):
+        raise error
+    return status, str(error)
 
 
 if __name__ == "__main__":

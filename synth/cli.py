@@ -147,9 +147,10 @@ def _import_plugin(name: str) -> None:
         sys.path.append(str(Path.cwd()))
     try:
         importlib.import_module(name)
-    except ImportError as error:
+    except (Exception, SystemExit) as error:
         raise SpecError(
-            f"--plugin: expected a module that can be imported, found {name!r}: {error}"
+            f"--plugin: expected a module that can be imported, found {name!r}: "
+            f"{type(error).__name__}: {error}"
         ) from error
 
 

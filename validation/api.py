@@ -20,6 +20,7 @@ from validation.execution.recorded import check_paired, load_recorded
 from validation.execution.run import prepare, run_suite
 from validation.execution.store import FOLDER, UnitStore
 from validation.execution.suite_result import SuiteResult, suite_result
+from validation.peers.function_process import end_functions
 from validation.peers.parse import settle
 from validation.records.view_score import TrueView, ViewScore, score_view
 from validation.report import check_target, write_run
@@ -66,6 +67,20 @@ def run(
         InputError: a suite, a method, a number of jobs or a folder that cannot be used.
         MissingBackendError: the machine lacks a renderer that the suite names.
     """
+    try:
+        return _run(suite, jobs=jobs, out=out, methods=methods, resume=resume)
+    finally:
+        end_functions()
+
+
+def _run(
+    suite: str | os.PathLike[str] | Suite,
+    *,
+    jobs: int | None,
+    out: str | os.PathLike[str] | None,
+    methods: Sequence[str | Method] | None,
+    resume: bool,
+) -> SuiteResult:
     whole = suite if isinstance(suite, Suite) else load_suite(os.fspath(suite))
     specs = tuple(settle(spec, {}) for spec in whole.measures)
     whole = msgspec.structs.replace(whole, measures=specs)

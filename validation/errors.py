@@ -2,7 +2,7 @@
 
 from rockshape.errors import InputError
 
-__all__ = ["InputError", "MissingPackageError", "WorkerError"]
+__all__ = ["InputError", "MissingPackageError", "Terminated", "WorkerError"]
 
 
 class MissingPackageError(RuntimeError):
@@ -15,3 +15,9 @@ class WorkerError(RuntimeError):
     """Workers die at a unit again and again."""
 
     exit_status = 3
+
+
+class Terminated(KeyboardInterrupt):
+    """SIGTERM to the run; it unwinds as an interrupt from the keyboard does."""
+
+    exit_status = 143

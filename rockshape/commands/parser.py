@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Sequence
 from typing import Any, NoReturn
 
-from rockshape.errors import did_you_mean
+from rockshape.errors import did_you_mean, one_line
 
 EXAMPLES_HEADING = "examples:"
 
@@ -28,7 +28,8 @@ class CommandParser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Print the message and the place of the help on one line; exit status 2."""
-        self.exit(2, f"{self.prog}: {message} (see {self.prog} --help)\n")
+        line = one_line(f"{self.prog}: {message}")
+        self.exit(2, f"{line} (see {self.prog} --help)\n")
 
     def parse_known_args(  # type: ignore[override]  # typeshed's overloads differ in the namespace
         self, args: Sequence[str] | None = None, namespace: Any = None

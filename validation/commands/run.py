@@ -2,19 +2,24 @@
 
 import argparse
 import shlex
+import signal
 import sys
+import threading
 import time
-from contextlib import ExitStack, closing
+from collections.abc import Iterator
+from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
+from typing import NoReturn
 
 import msgspec
 
 from validation.commands.progress import Progress
-from validation.errors import InputError
+from validation.errors import InputError, Terminated
 from validation.execution.executors import cluster, default_jobs, local
 from validation.execution.run import Run, prepare, run_suite
 from validation.execution.store import FOLDER, UnitStore, unit_key
 from validation.execution.units import units_of
+from validation.peers.function_process import end_functions
 from validation.peers.parse import parse_measure, parse_traits, settle
 from validation.report import check_target, write_run
 from validation.report.format import number
@@ -69,12 +74,37 @@ def _print_verdict(run: Run, out: Path, seconds: float) -> None:
     print(f"{verdict}: {passed} of {len(run.gates)} gates in {seconds:.0f} s; {out / 'index.html'}")
 
 
+@contextmanager
+def _unwound_by_sigterm() -> Iterator[None]:
+    """Let SIGTERM end the run as an interrupt does, with its processes and temporary files."""
+
+    def leave(*_: object) -> NoReturn:
+        raise Terminated
+
+    if threading.current_thread() is not threading.main_thread():  # only it can set handlers
+        yield
+        return
+    before = signal.signal(signal.SIGTERM, leave)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
 def run_action(args: argparse.Namespace) -> int:
     """Run a suite, write its report and print the verdict; 1 where a gate failed.
 
     Raises:
         InputError: a suite, gates, a method, a number of jobs or a folder that cannot be used.
     """
+    with _unwound_by_sigterm():
+        try:
+            return _run(args)
+        finally:
+            end_functions()
+
+
+def _run(args: argparse.Namespace) -> int:
     suite = _with_measures(load_suite(args.suite), args)
     gates = load_gates(args.gates) if args.gates else suite.gates
     asked = with_methods(suite, args.method) if args.method else suite

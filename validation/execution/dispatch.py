@@ -19,10 +19,20 @@ OnDone = Callable[[AnyUnit], None]
 
 
 def run_packed(unit: AnyUnit) -> bytes:
-    """Run a unit in a worker, with one thread; return its packed result."""
+    """Packed result of a unit, run in a worker with one thread.
+
+    Raises:
+        WorkerError: foreign code in the unit, a method of a plug-in say, leaves by SystemExit.
+    """
     with _ONE_AT_A_TIME:
         cv2.setNumThreads(1)
-        return pack(run_unit(unit))
+        try:
+            return pack(run_unit(unit))
+        except Exception:
+            raise
+        except BaseException as error:
+            kind = type(error).__name__
+            raise WorkerError(f"{describe(unit)}: expected a result, found {kind}") from None
 
 
 def _checked(packed: bytes, unit: AnyUnit) -> bytes:

@@ -4,7 +4,13 @@ import os
 import sys
 import threading
 from collections.abc import Callable, Iterator
-from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import (
+    CancelledError,
+    Executor,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+)
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from multiprocessing import parent_process
@@ -74,6 +80,7 @@ class LocalExecutor(Executor):
         self._threads = ThreadPoolExecutor(jobs, thread_name_prefix="worker")
         self._own = threading.local()
         self._pools: list[ProcessPoolExecutor] = []
+        self._killed = False
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> "Future[Any]":
         """Call a function in one of the processes."""
@@ -81,6 +88,8 @@ class LocalExecutor(Executor):
 
     def _call(self, fn: Callable[..., Any], *args: Any, **kwargs: Any) -> Any:
         for _ in range(TRIES):
+            if self._killed:
+                raise CancelledError
             pool = getattr(self._own, "pool", None)
             if pool is None:
                 pool = ProcessPoolExecutor(1, _WorkerContext(), initializer=_die_with_parent)
@@ -91,6 +100,14 @@ class LocalExecutor(Executor):
             except BrokenProcessPool:
                 self._own.pool = None
         raise WorkerError(f"--jobs: {TRIES} processes died at the same unit: out of memory?")
+
+    def kill(self) -> None:
+        """End the processes at once, whatever they are at."""
+        self._killed = True
+        self._threads.shutdown(wait=False, cancel_futures=True)
+        for pool in list(self._pools):
+            for process in list((pool._processes or {}).values()):
+                process.kill()
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
         """End the processes after the calls they are at."""
@@ -121,7 +138,11 @@ def local(jobs: int) -> Iterator[Executor]:
     if jobs < 1:
         raise InputError(f"--jobs: expected 1 or more, found {jobs}")
     with _one_blas_thread(), LocalExecutor(jobs) as executor:
-        yield executor
+        try:
+            yield executor
+        except BaseException:
+            executor.kill()
+            raise
 
 
 @contextmanager

@@ -5,12 +5,13 @@ from collections.abc import Callable, Iterator, Mapping
 from numbers import Real
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
 from rockshape.outline.edge import trace_edge
 from rockshape.rock.instances import Instance, Instances
 from validation.errors import InputError
-from validation.peers.view_input import Seen
+from validation.peers.view_input import Seen, as_table, read_only
 
 Function = Callable[..., object]
 
@@ -52,6 +53,15 @@ def call_measure(function: Function, seen: Seen, *, where: str) -> object:
         return _columns(function, inputs[0], seen, where=where)
     view = {"image": seen.image, "labels": seen.labels, "points_m": seen.points_m}
     return _call_by_name(function, {name: view[name] for name in inputs}, where=where)
+
+
+def measured_table(function: Function, seen: Seen, *, where: str) -> pd.DataFrame:
+    """Table of one row a rock of a measure's function on one view; see `as_table`.
+
+    Raises:
+        InputError: as `call_measure` and `as_table`.
+    """
+    return as_table(call_measure(function, seen, where=where), seen.numbers, where=where)
 
 
 def _inputs_of(function: Function, *, where: str) -> tuple[str, ...] | None:
@@ -105,7 +115,7 @@ def _call(
 ) -> object:
     try:
         return function(*args, **kwargs)
-    except Exception as error:
+    except BaseException as error:  # SystemExit and KeyboardInterrupt too
         raise InputError(f"{where}: {type(error).__name__}: {error}") from error
 
 
@@ -122,6 +132,8 @@ def _columns(function: Function, name: str, seen: Seen, *, where: str) -> dict[s
         row = given if isinstance(given, Mapping) else {"value": given}
         if index == 0:
             columns = {str(column): [] for column in row}
+            if "rock" in columns:
+                raise InputError(f"{here}: expected columns other than rock, found it")
         if set(map(str, row)) != set(columns):
             raise InputError(
                 f"{here}: expected the columns of the first rock, {', '.join(columns)}, "
@@ -144,13 +156,13 @@ def _number(value: object, *, where: str) -> float:
 def _masks(labels: NDArray[np.int32]) -> Iterator[tuple[int, NDArray[np.bool_]]]:
     """Each rock's number and mask (rows, cols): its largest connected part with a margin."""
     for rock in Instances.from_labels(labels).largest_parts():
-        yield rock.id, np.pad(rock.mask, MARGIN_PX)
+        yield rock.id, read_only(np.pad(rock.mask, MARGIN_PX))
 
 
 def _outlines(labels: NDArray[np.int32]) -> Iterator[tuple[int, NDArray[np.float64]]]:
     """Each rock's number and outline (n, 2), x and y in the image's pixels; see `trace_edge`."""
     for rock in Instances.from_labels(labels).largest_parts():
-        yield rock.id, trace_edge(rock.mask) + _corner_px(rock)
+        yield rock.id, read_only(trace_edge(rock.mask) + _corner_px(rock))
 
 
 def _corner_px(rock: Instance) -> tuple[int, int]:

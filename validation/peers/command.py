@@ -1,7 +1,6 @@
 """Runner of a measure that is a command: it reads image files and writes a CSV."""
 
 import shlex
-import subprocess
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -10,11 +9,12 @@ import numpy as np
 import pandas as pd
 
 from validation.errors import InputError
+from validation.peers.process import ForeignProcess
 from validation.peers.view_input import Seen
 
 PLACES = ("{image}", "{labels}", "{range}", "{out}")
 NEEDED = ("{labels}", "{out}")
-LIMIT_S = 600
+MAX_CSV_BYTES = 2**26
 MAX_UINT16 = 2**16 - 1
 
 
@@ -33,14 +33,15 @@ def check_command(command: str) -> None:
             raise InputError(f"--measure: expected {place} in the command, found {command!r}")
 
 
-def run_command(command: str, seen: Seen, *, where: str) -> pd.DataFrame:
+def run_command(command: str, seen: Seen, *, where: str, limit_s: float) -> pd.DataFrame:
     """Table that a command writes to {out}, a CSV with the column `rock`.
 
     {image} becomes an 8-bit PNG, {labels} a 16-bit PNG, {range} an .npz with `xyz` (rows, cols, 3)
     in metres, or an empty word without range. No shell takes part.
 
     Raises:
-        InputError: the command cannot be run, fails, takes too long, or writes no such table.
+        InputError: the command cannot be run, fails, takes longer than the limit, prints too much,
+            or writes no such table.
     """
     if seen.labels.max(initial=0) > MAX_UINT16:
         raise InputError(f"{where}: expected labels of 16 bits, found {seen.labels.max()}")
@@ -58,26 +59,17 @@ def run_command(command: str, seen: Seen, *, where: str) -> pd.DataFrame:
             for place, text in words.items():
                 word = word.replace(place, text)  # noqa: PLW2901 (several may stand in a word)
             argv.append(word)
-        _call(argv, where=where)
+        ForeignProcess(argv, where=where).finish(limit_s)
         try:
-            table = pd.read_csv(files["{out}"])
+            size = files["{out}"].stat().st_size
+            table = pd.read_csv(files["{out}"]) if size <= MAX_CSV_BYTES else None
         except (OSError, ValueError) as error:
             raise InputError(f"{where}: expected a CSV at {{out}}, found: {error}") from error
+    if table is None:
+        raise InputError(f"{where}: expected a CSV of up to {MAX_CSV_BYTES} bytes, found {size}")
     if "rock" not in table:
         raise InputError(f"{where}: expected the column rock, found {', '.join(table.columns)}")
     return table
 
 
 _NAMES = ("image.png", "labels.png", "range.npz", "out.csv")
-
-
-def _call(argv: list[str], *, where: str) -> None:
-    try:
-        done = subprocess.run(argv, capture_output=True, text=True, timeout=LIMIT_S, check=False)
-    except OSError as error:
-        raise InputError(f"{where}: {argv[0]}: {error.strerror}") from error
-    except subprocess.TimeoutExpired as error:
-        raise InputError(f"{where}: expected an end within {LIMIT_S} s, found none") from error
-    if done.returncode != 0:
-        said = done.stderr.strip().splitlines() or ["nothing on stderr"]
-        raise InputError(f"{where}: ended with {done.returncode}: {said[-1]}")

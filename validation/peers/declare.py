@@ -34,4 +34,4 @@ rises_with = expected_trait
 def declared_traits(function: Callable[..., object]) -> Mapping[str, Trait]:
     """Traits by column that a function declares; empty where it declares none."""
     found: Mapping[str, Trait] = getattr(function, _ATTRIBUTE, {})
-    return found
+    return found if isinstance(found, Mapping) else {}

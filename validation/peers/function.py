@@ -23,9 +23,10 @@ def load_function(target: str) -> Function:
         sys.path.append(str(Path.cwd()))
     try:
         module = importlib.import_module(module_name)
-    except ImportError as error:
+    except BaseException as error:  # SystemExit too
         raise InputError(
-            f"--measure {target}: expected a module that can be imported, found: {error}"
+            f"--measure {target}: expected a module that can be imported, found: "
+            f"{type(error).__name__}: {error}"
         ) from error
     function = getattr(module, name, None)
     if not callable(function):

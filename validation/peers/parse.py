@@ -11,15 +11,15 @@ import numpy as np
 from validation.errors import InputError
 from validation.peers.adapters import ADAPTERS
 from validation.peers.command import check_command
-from validation.peers.declare import VALUE, declared_traits
-from validation.peers.function import load_function
-from validation.peers.run import run_measure
+from validation.peers.declare import VALUE
+from validation.peers.run import declared_by, run_measure
 from validation.peers.spec import MeasureSpec, Trait
 from validation.peers.view_input import Seen
 
 _NAMED = re.compile(r"(?P<name>[a-z][a-z0-9_-]*)=(?P<rest>.+)", re.DOTALL)
 _FUNCTION = re.compile(r"\w+(\.\w+)*:\w+")
 _PROBE_SIDE_PX = 96
+TRIAL_LIMIT_S = 60.0
 _BY_NAME: dict[str, Trait] = {
     "angularity": "angularity",
     "roundness": "roundness",
@@ -91,17 +91,16 @@ def settle(spec: MeasureSpec, asked: Mapping[str, Trait]) -> MeasureSpec:
         InputError: the measure fails on the trial view, lacks a column that was named, or has none
             that can be judged.
     """
-    table = run_measure(spec, _probe())
+    declared = declared_by(spec)
+    table = run_measure(spec, _probe(), limit_s=TRIAL_LIMIT_S)
     columns = [str(name) for name in table.columns if name not in ("rock", "reason")]
     named = {name: _BY_NAME[name] for name in columns if name in _BY_NAME}
-    declared: Mapping[str, Trait] = {}
     if spec.function is not None:
-        declared = declared_traits(load_function(spec.function))
         own_name = spec.function.partition(":")[2]
         if VALUE in columns and own_name in _BY_NAME:
             named[VALUE] = _BY_NAME[own_name]
     given = {column: trait for column, trait in asked.items() if column in columns}
-    traits = {**named, **declared, **spec.expected_trait, **given}
+    traits = {**named, **_known(declared, spec), **spec.expected_trait, **given}
     missing = [column for column in traits if column not in columns]
     if missing:
         raise InputError(
@@ -113,6 +112,18 @@ def settle(spec: MeasureSpec, asked: Mapping[str, Trait]) -> MeasureSpec:
             f"for one of its columns, found none for {', '.join(columns)}"
         )
     return msgspec.structs.replace(spec, expected_trait=traits)
+
+
+def _known(declared: Mapping[str, str], spec: MeasureSpec) -> dict[str, Trait]:
+    """Traits that a function declares, each one that there is."""
+    traits = get_args(Trait)
+    for column, trait in declared.items():
+        if trait not in traits:
+            raise InputError(
+                f"--measure {spec.name}: expected_trait: {column}: "
+                f"expected one of {', '.join(traits)}, found {trait!r}"
+            )
+    return cast(dict[str, Trait], dict(declared))
 
 
 def _probe() -> Seen:

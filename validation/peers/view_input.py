@@ -1,13 +1,32 @@
 """Input and output records of a measure from elsewhere."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
 from validation.errors import InputError
+from validation.records.join import RecordKey
+
+MAX_COLUMNS = 256
+_MAX_NAME = 80  # characters
+# Columns that the records have beside a measure's own.
+_RESERVED = frozenset(
+    {*RecordKey.__dataclass_fields__}
+    | {"instance", "obj_id", "family", "eligible", "iou", "status", "reason"}
+)
+_TRUTH = "truth_"
+A = TypeVar("A", bound=np.generic)
+
+
+def read_only(values: NDArray[A]) -> NDArray[A]:
+    """View of an array that cannot be written to."""
+    view = values.view()
+    view.flags.writeable = False
+    return view
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,6 +42,11 @@ class Seen:
         """The rocks' numbers, rising."""
         found: NDArray[np.int64] = np.unique(self.labels[self.labels > 0]).astype(np.int64)
         return found
+
+    def read_only(self) -> "Seen":
+        """View whose arrays cannot be written to."""
+        points_m = None if self.points_m is None else read_only(self.points_m)
+        return Seen(read_only(self.image), read_only(self.labels), points_m)
 
 
 def as_table(given: object, numbers: NDArray[np.int64], *, where: str) -> pd.DataFrame:
@@ -40,12 +64,10 @@ def as_table(given: object, numbers: NDArray[np.int64], *, where: str) -> pd.Dat
         columns = {"rock": numbers, **{str(name): given[name] for name in given}}
     else:
         columns = {"rock": numbers, "value": given}
+    _check_names(columns, where=where)
     values = {}
     for name, column in columns.items():
-        try:
-            values[name] = np.asarray(column, dtype=np.float64)
-        except (TypeError, ValueError) as error:
-            raise InputError(f"{where}: {name}: expected numbers, found {error}") from error
+        values[name] = _numbers(column, where=f"{where}: {name}")
         if values[name].ndim != 1 or values[name].size != values["rock"].size:
             raise InputError(
                 f"{where}: {name}: expected one number for each of {values['rock'].size} rocks, "
@@ -57,3 +79,30 @@ def as_table(given: object, numbers: NDArray[np.int64], *, where: str) -> pd.Dat
     table = pd.DataFrame(values).astype({"rock": np.int64})
     every = pd.DataFrame({"rock": numbers})
     return every.merge(table, on="rock", how="left").assign(reason="")
+
+
+def _numbers(column: object, *, where: str) -> NDArray[np.float64]:
+    try:
+        stored = np.asarray(column)
+        numbers = stored.astype(np.float64) if stored.dtype.kind in "biufO" else None
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InputError(f"{where}: expected numbers, found {error}") from error
+    if numbers is None:
+        raise InputError(f"{where}: expected numbers, found {stored.dtype}")
+    return numbers
+
+
+def _check_names(names: Collection[str], *, where: str) -> None:
+    """Refuse columns that the records have already, and names that cannot stand in a score's."""
+    if len(names) > MAX_COLUMNS:
+        raise InputError(f"{where}: expected at most {MAX_COLUMNS} columns, found {len(names)}")
+    for name in names:
+        if name in _RESERVED or name.startswith(_TRUTH):
+            raise InputError(
+                f"{where}: expected names of columns that the records do not have, found {name!r}"
+            )
+        if not 0 < len(name) <= _MAX_NAME or not name.isprintable():
+            raise InputError(
+                f"{where}: expected names of columns of 1 to {_MAX_NAME} printable characters, "
+                f"found {name[:_MAX_NAME]!r}"
+            )

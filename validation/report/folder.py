@@ -77,7 +77,7 @@ def write_run(run: Run, out: Path, *, command: str, seconds: float) -> None:
         whole.mkdir()
         run.records.to_parquet(whole / "results.parquet", index=False)
         (whole / SCORES).write_text(scores_json(run), encoding="utf-8")
-        (whole / "junit.xml").write_text(junit_xml(run), encoding="utf-8")
+        (whole / "junit.xml").write_text(junit_xml(run, seconds=seconds), encoding="utf-8")
         (whole / "summary.md").write_text(summary_markdown(run), encoding="utf-8")
         page = page_html(run, command=command, seconds=seconds)
         (whole / PAGE).write_text(page, encoding="utf-8")

@@ -22,9 +22,10 @@ def load_plugin(plugin: str) -> ModuleType:
         sys.path.append(str(Path.cwd()))
     try:
         module = import_module(module_name)
-    except ImportError as error:
+    except (Exception, SystemExit) as error:
         raise InputError(
-            f"plug-in {plugin}: expected a module that can be imported, found: {error}"
+            f"plug-in {plugin}: expected a module that can be imported, found: "
+            f"{type(error).__name__}: {error}"
         ) from error
     if name:
         register_method(_method_in(module, name))

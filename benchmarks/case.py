@@ -36,26 +36,17 @@ class Table:
 
 @dataclass(frozen=True)
 class Case:
-    """One benchmark: what it measures, its sizes from the smallest on, and the function to run.
+    """One benchmark: what it measures, the function to run, and the options of its smallest size.
 
-    `run` takes a size's options and returns its tables. Where `peer` names another implementation
-    or a floor, it is measured in the same run, and the columns "ratio" are relative to it.
+    `run` returns its tables; its options' defaults are the full size, that of the figures in docs.
+    Where `peer` names another implementation or a floor, it is measured in the same run, and the
+    columns "ratio" are relative to it.
     """
 
     name: str
     what: str
     run: Callable[..., Sequence[Table]]
-    sizes: Mapping[str, Mapping[str, Any]] = field(default_factory=lambda: {"full": {}})
+    smallest: Mapping[str, Any] = field(default_factory=dict)  # that of a smoke test
     peer: str = ""
     threads: int = 1
     slow: bool = False  # left out unless it is named, at its full size
-
-    @property
-    def smallest(self) -> str:
-        """Name of the first size, that of a smoke test."""
-        return next(iter(self.sizes))
-
-    @property
-    def full(self) -> str:
-        """Name of the last size, that of the figures in docs."""
-        return list(self.sizes)[-1]

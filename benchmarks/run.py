@@ -32,7 +32,9 @@ def all_cases() -> dict[str, Case]:
     modules = [
         importlib.import_module(f"cases.{info.name}") for info in pkgutil.iter_modules([folder])
     ]
-    found = [case for module in modules for case in module.CASES]
+    found = [
+        value for module in modules for value in vars(module).values() if isinstance(value, Case)
+    ]
     return {case.name: case for case in sorted(found, key=lambda case: case.name)}
 
 
@@ -47,12 +49,12 @@ def find_case(name: str, cases: dict[str, Case]) -> Case:
 
 def run_case(case: Case, *, smallest: bool, out: Path | None) -> None:
     """Run a case, print its tables and keep them where asked."""
-    size = case.smallest if smallest else case.full
+    size = "smallest" if smallest else "full"
     start, load = time.perf_counter(), os.getloadavg()[0]
     os.environ.update(dict.fromkeys(THREAD_VARIABLES, str(case.threads)))  # of its children
     cv2.setNumThreads(case.threads)
     with threadpool_limits(case.threads):
-        tables = list(case.run(**case.sizes[size]))
+        tables = list(case.run(**(case.smallest if smallest else {})))
     entry = entry_of(case, size, tables, load=max(load, os.getloadavg()[0]))
     if out is not None:
         save_entry(case.name, entry, out)

@@ -1,5 +1,6 @@
 """Benchmarks: their runner, their results, and the tables that docs quote of them."""
 
+import inspect
 import json
 import re
 import socket
@@ -34,12 +35,11 @@ def toy():
     """A case that takes no time and reports what it was given."""
     from case import Case, Column, Table
 
-    def run(*, rows):
+    def run(*, rows=3):
         columns = (Column("name"), Column("time", "ms", ".2f"), Column("ratio"))
         return [Table(columns, [(f"row {n}", 1.5 * n, None) for n in range(rows)])]
 
-    sizes = {"smallest": {"rows": 1}, "full": {"rows": 3}}
-    return Case(name="toy", what="nothing", run=run, sizes=sizes, peer="itself")
+    return Case(name="toy", what="nothing", run=run, smallest={"rows": 1}, peer="itself")
 
 
 def entry(**changes):
@@ -104,7 +104,7 @@ def test_each_result_belongs_to_a_case_at_its_full_size(cases):
     results = load_results()
     assert list(results) == sorted(results)
     for name, one in results.items():
-        assert one["size"] == cases[name].full, name
+        assert one["size"] == "full", name
         assert one["what"] == cases[name].what, name
         assert one["peer"] == cases[name].peer, name
         for table in one["tables"]:
@@ -125,8 +125,9 @@ def test_results_tell_the_machine_but_neither_its_name_nor_its_paths():
 def test_every_case_has_a_smallest_size_with_the_options_of_its_full_one(cases):
     assert len(cases) > 20
     for case in cases.values():
-        options = {tuple(sorted(size)) for size in case.sizes.values()}
-        assert len(options) == 1, case.name
+        options = inspect.signature(case.run).parameters
+        assert set(case.smallest) == set(options), case.name
+        assert all(one.default is not one.empty for one in options.values()), case.name
 
 
 def test_a_run_replaces_its_entry_and_leaves_the_others(tmp_path, toy, capsys):

@@ -24,7 +24,7 @@ COMMANDS = {
 }
 
 
-def processes(*, rounds: int, first: int) -> list[Table]:
+def processes(*, rounds: int = 4, first: int = 99) -> list[Table]:
     """Time each command with nothing compiled yet, and again."""
     rows = []
     for title, command in list(COMMANDS.items())[:first]:
@@ -44,11 +44,9 @@ def processes(*, rounds: int, first: int) -> list[Table]:
     return [Table((Column("process"), *heads), rows)]
 
 
-CASES = (
-    Case(
-        name="cold_start",
-        what="whole processes; fresh: every module compiled from source into an empty cache",
-        run=processes,
-        sizes={"smallest": {"rounds": 1, "first": 2}, "full": {"rounds": 4, "first": 99}},
-    ),
+COLD_START_CASE = Case(
+    name="cold_start",
+    what="whole processes; fresh: every module compiled from source into an empty cache",
+    run=processes,
+    smallest={"rounds": 1, "first": 2},
 )

@@ -22,7 +22,7 @@ DIAMETERS_M = (0.1, 0.15, 0.2, 0.3, 0.4, 0.6, 0.8, 1.0, 1.5)
 FIELD = PopulationSpec(kind="golombek-rapp", k=0.19, d_min_m=0.1, d_max_m=2.0, radius_m=5.0)
 
 
-def processes(*, scenes: int, rest: str) -> list[Table]:
+def processes(*, scenes: int = 12, rest: str = "") -> list[Table]:
     """Time `rockshape synth` from its start to the manifest, with one process and with two."""
     rows: list[tuple[Cell, ...]] = []
     with TemporaryDirectory() as folder:
@@ -55,7 +55,7 @@ def processes(*, scenes: int, rest: str) -> list[Table]:
     return [Table(columns, rows)]
 
 
-def population(*, fields: int, placed: int) -> list[Table]:
+def population(*, fields: int = 200, placed: int = 40) -> list[Table]:
     """Count diameters as drawn, and rocks as they lie in whole scenes, beside the formula.
 
     The interval holds 95 % of the counts of a Poisson process with the formula's mean.
@@ -109,24 +109,20 @@ def _placed_m(index: int) -> Floats:
     return np.array([placed.rock.truth.half_axes_box_m[:2].sum() for placed in scene.rocks])
 
 
-CASES = (
-    Case(
-        name="processes",
-        what="a dataset from the command to the manifest, by one process and by two",
-        run=processes,
-        sizes={
-            "smallest": {
-                "scenes": 2,
-                "rest": "[views]\ncount = 1\n[camera]\npreset = 'imp'\n[rocks]\ncount = 2\n",
-            },
-            "full": {"scenes": 12, "rest": ""},
-        },
-        peer="the wall time of one process; it needs an idle machine",
-    ),
-    Case(
-        name="population",
-        what="rocks of at least a diameter D in fields of 78.5 m², k = 0.19",
-        run=population,
-        sizes={"smallest": {"fields": 2, "placed": 1}, "full": {"fields": 200, "placed": 40}},
-    ),
+PROCESSES_CASE = Case(
+    name="processes",
+    what="a dataset from the command to the manifest, by one process and by two",
+    run=processes,
+    smallest={
+        "scenes": 2,
+        "rest": "[views]\ncount = 1\n[camera]\npreset = 'imp'\n[rocks]\ncount = 2\n",
+    },
+    peer="the wall time of one process; it needs an idle machine",
+)
+
+POPULATION_CASE = Case(
+    name="population",
+    what="rocks of at least a diameter D in fields of 78.5 m², k = 0.19",
+    run=population,
+    smallest={"fields": 2, "placed": 1},
 )

@@ -31,7 +31,9 @@ ORDERS = (
 )
 
 
-def descriptors_by_size(*, sizes_px: tuple[int, ...], turns: int) -> list[Table]:
+def descriptors_by_size(
+    *, sizes_px: tuple[int, ...] = (10, 20, 30, 60, 100, 200, 500, 1000), turns: int = 8
+) -> list[Table]:
     """Return the relative error of descriptors on closed forms, ours and scikit-image's."""
     side = 1 / np.sqrt(2)
     square = side * np.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]])
@@ -74,7 +76,9 @@ def descriptors_by_size(*, sizes_px: tuple[int, ...], turns: int) -> list[Table]
     return [Table((Column("form"), Column("descriptor"), Column("by"), *heads), rows)]
 
 
-def order_by_size(*, sizes_px: tuple[int, ...], series: int) -> list[Table]:
+def order_by_size(
+    *, sizes_px: tuple[int, ...] = (30, 40, 60, 100, 200, 500, 1000), series: int = 12
+) -> list[Table]:
     """Return how the 2-D measures keep the order of six shapes, and their value, at every size.
 
     The truth repeats in the column of all sizes, once a size, so that 0.924 is the most that |τ|
@@ -122,23 +126,16 @@ def _skimage(mask: Mask, *, name: str) -> float:
     return float(getattr(regionprops(mask.astype(np.uint8))[0], name))
 
 
-CASES = (
-    Case(
-        name="descriptors",
-        what="relative error of outline descriptors by greatest extent, on closed forms",
-        run=descriptors_by_size,
-        sizes={
-            "smallest": {"sizes_px": (10,), "turns": 2},
-            "full": {"sizes_px": (10, 20, 30, 60, 100, 200, 500, 1000), "turns": 8},
-        },
-    ),
-    Case(
-        name="resolution",
-        what="|τ| with the truth in series of six shapes, and mean value over that at 1000 px",
-        run=order_by_size,
-        sizes={
-            "smallest": {"sizes_px": (30, 40), "series": 2},
-            "full": {"sizes_px": (30, 40, 60, 100, 200, 500, 1000), "series": 12},
-        },
-    ),
+DESCRIPTORS_CASE = Case(
+    name="descriptors",
+    what="relative error of outline descriptors by greatest extent, on closed forms",
+    run=descriptors_by_size,
+    smallest={"sizes_px": (10,), "turns": 2},
+)
+
+RESOLUTION_CASE = Case(
+    name="resolution",
+    what="|τ| with the truth in series of six shapes, and mean value over that at 1000 px",
+    run=order_by_size,
+    smallest={"sizes_px": (30, 40), "series": 2},
 )

@@ -86,7 +86,9 @@ paper.merge(robust, on="rock").to_csv(sys.argv[2])
 }
 
 
-def one_silhouette(*, sizes_px: tuple[int, ...], rounds: int, peers: bool) -> list[Table]:
+def one_silhouette(
+    *, sizes_px: tuple[int, ...] = (200, 1000), rounds: int = 100, peers: bool = True
+) -> list[Table]:
     """Time the measures, OpenCV and the peers that are installed on one mask of each size."""
     rows = []
     for size in sizes_px:
@@ -108,7 +110,7 @@ def one_silhouette(*, sizes_px: tuple[int, ...], rounds: int, peers: bool) -> li
     return [Table((Column("mask"), Column("work"), *TIME_COLUMNS), rows)]
 
 
-def hundred_silhouettes(*, size_px: int, rounds: int) -> list[Table]:
+def hundred_silhouettes(*, size_px: int = 200, rounds: int = 5) -> list[Table]:
     """Time whole processes that read a label image, measure its shapes and write a CSV."""
     best = dict.fromkeys(SCRIPTS, NEVER)
     with tempfile.TemporaryDirectory() as folder:
@@ -173,22 +175,18 @@ def _sheet(size: int) -> NDArray[np.uint16]:
     return labels
 
 
-CASES = (
-    Case(
-        name="flat_speed",
-        what="2-D measures of one silhouette, from mask to numbers, in a warm process",
-        run=one_silhouette,
-        sizes={
-            "smallest": {"sizes_px": (60,), "rounds": 2, "peers": False},
-            "full": {"sizes_px": (200, 1000), "rounds": 100, "peers": True},
-        },
-        peer=f"{OPENCV} on the same mask",
-    ),
-    Case(
-        name="flat_batch",
-        what="100 silhouettes from a label image to a CSV, whole processes with their imports",
-        run=hundred_silhouettes,
-        sizes={"smallest": {"size_px": 30, "rounds": 1}, "full": {"size_px": 200, "rounds": 5}},
-        peer="skimage's regionprops_table",
-    ),
+FLAT_SPEED_CASE = Case(
+    name="flat_speed",
+    what="2-D measures of one silhouette, from mask to numbers, in a warm process",
+    run=one_silhouette,
+    smallest={"sizes_px": (60,), "rounds": 2, "peers": False},
+    peer=f"{OPENCV} on the same mask",
+)
+
+FLAT_BATCH_CASE = Case(
+    name="flat_batch",
+    what="100 silhouettes from a label image to a CSV, whole processes with their imports",
+    run=hundred_silhouettes,
+    smallest={"size_px": 30, "rounds": 1},
+    peer="skimage's regionprops_table",
 )

@@ -23,7 +23,7 @@ SAMPLE_S = 0.002
 SERIES = (Column("method"), Column("frame, px"), Column("rocks found", "", "d"))
 
 
-def whole_frame(*, preset: str, rocks: int, rounds: int) -> list[Table]:
+def whole_frame(*, preset: str = "mer-navcam", rocks: int = 40, rounds: int = 4) -> list[Table]:
     """Time both methods on a rendered frame, then sample where the time goes."""
     table = {
         "seed": 10_005,
@@ -82,7 +82,13 @@ def _sampled(work: Callable[[], object], rounds: int) -> Counter[str]:
     return Counter({name: count / total for name, count in packages.items()})
 
 
-def growth(*, sides: tuple[int, ...], many: int, rocks: tuple[int, ...], side: int) -> list[Table]:
+def growth(
+    *,
+    sides: tuple[int, ...] = (512, 1024, 2048, 4096),
+    many: int = 64,
+    rocks: tuple[int, ...] = (10, 32, 100, 316, 1000),
+    side: int = 4096,
+) -> list[Table]:
     """Time frames of growing size, then a large frame with ever more rocks of 40 px."""
     _seconds(side_px=256, rocks=4, radius_px=None, method="paper")  # warms up
     columns = (*SERIES, Column("processor", "s"))
@@ -135,28 +141,16 @@ def _power(pairs: list[tuple[float, float]]) -> float:
     return float(np.polyfit(*np.log(np.transpose(pairs)), 1)[0])
 
 
-CASES = (
-    Case(
-        name="frame",
-        what="a rendered frame, found, measured and tabled; and its processor time by package",
-        run=whole_frame,
-        sizes={
-            "smallest": {"preset": "imp", "rocks": 3, "rounds": 1},
-            "full": {"preset": "mer-navcam", "rocks": 40, "rounds": 4},
-        },
-    ),
-    Case(
-        name="growth",
-        what="processor time of drawn frames by pixels and by rocks; an exponent of 1 is linear",
-        run=growth,
-        sizes={
-            "smallest": {"sides": (128, 256), "many": 9, "rocks": (2, 4), "side": 256},
-            "full": {
-                "sides": (512, 1024, 2048, 4096),
-                "many": 64,
-                "rocks": (10, 32, 100, 316, 1000),
-                "side": 4096,
-            },
-        },
-    ),
+FRAME_CASE = Case(
+    name="frame",
+    what="a rendered frame, found, measured and tabled; and its processor time by package",
+    run=whole_frame,
+    smallest={"preset": "imp", "rocks": 3, "rounds": 1},
+)
+
+GROWTH_CASE = Case(
+    name="growth",
+    what="processor time of drawn frames by pixels and by rocks; an exponent of 1 is linear",
+    run=growth,
+    smallest={"sides": (128, 256), "many": 9, "rocks": (2, 4), "side": 256},
 )

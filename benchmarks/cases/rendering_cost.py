@@ -26,7 +26,9 @@ def _backends() -> list[str]:
     return [backend for backend in BACKENDS if has_backend(backend)]
 
 
-def view_cost(*, backends: int, preset: str, views: int, scenes: int) -> list[Table]:
+def view_cost(
+    *, backends: int = 3, preset: str = "msl-navcam", views: int = 5, scenes: int = 3
+) -> list[Table]:
     """Time further views of six rocks, with and without files, beside the bare renderer."""
     options = (preset, views, scenes)
     rows: list[tuple[Cell, ...]] = [
@@ -73,7 +75,7 @@ def _seconds(backend: str, preset: str, *, views: int, seed: int) -> tuple[float
     return own_s / further, (all_s - one_s) / further, *(bare_s / further), one_s
 
 
-def memory(*, backends: int, every: int, upto: int) -> list[Table]:
+def memory(*, backends: int = 3, every: int = 50, upto: int = 300) -> list[Table]:
     """Return the resident memory of a process that writes scene after scene of ten frames."""
     shown = tuple(range(every, upto + 1, every))
     rows = [
@@ -96,7 +98,7 @@ def _resident_mb(backend: str, shown: tuple[int, ...]) -> list[float]:
     return found
 
 
-def field(*, rocks: int, preset: str) -> list[Table]:
+def field(*, rocks: int = 500, preset: str = "mer-navcam") -> list[Table]:
     """Time each stage of a field of many rocks."""
     columns = (
         Column("rocks", "", "d"),
@@ -151,33 +153,24 @@ def _field_spec(rocks: int, preset: str) -> SceneSpec:
     return convert_spec(table, where="field")
 
 
-CASES = (
-    Case(
-        name="view_cost",
-        what="processor time of a further view of six rocks, beside the bare renderer",
-        run=view_cost,
-        sizes={
-            "smallest": {"backends": 1, "preset": "imp", "views": 2, "scenes": 1},
-            "full": {"backends": 3, "preset": "msl-navcam", "views": 5, "scenes": 3},
-        },
-        peer="the renderer's library called directly for a picture with shadows, depth and labels",
-    ),
-    Case(
-        name="memory",
-        what="resident memory of one process that writes scene after scene of 256² frames",
-        run=memory,
-        sizes={
-            "smallest": {"backends": 1, "every": 10, "upto": 10},
-            "full": {"backends": 3, "every": 50, "upto": 300},
-        },
-    ),
-    Case(
-        name="field",
-        what="processor time and memory of a field of many rocks, k = 0.19",
-        run=field,
-        sizes={
-            "smallest": {"rocks": 5, "preset": "imp"},
-            "full": {"rocks": 500, "preset": "mer-navcam"},
-        },
-    ),
+VIEW_COST_CASE = Case(
+    name="view_cost",
+    what="processor time of a further view of six rocks, beside the bare renderer",
+    run=view_cost,
+    smallest={"backends": 1, "preset": "imp", "views": 2, "scenes": 1},
+    peer="the renderer's library called directly for a picture with shadows, depth and labels",
+)
+
+MEMORY_CASE = Case(
+    name="memory",
+    what="resident memory of one process that writes scene after scene of 256² frames",
+    run=memory,
+    smallest={"backends": 1, "every": 10, "upto": 10},
+)
+
+FIELD_CASE = Case(
+    name="field",
+    what="processor time and memory of a field of many rocks, k = 0.19",
+    run=field,
+    smallest={"rocks": 5, "preset": "imp"},
 )

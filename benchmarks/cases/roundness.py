@@ -32,7 +32,11 @@ FAST_RS_MAX_PX = 200  # its time grows with the square
 
 
 def roundness_by_size(
-    *, sizes_px: tuple[int, ...], charts: int, scenes: int, turns: int
+    *,
+    sizes_px: tuple[int, ...] = (30, 60, 100, 200, 500, 1000),
+    charts: int = 3,
+    scenes: int = 14,
+    turns: int = 8,
 ) -> list[Table]:
     """Hold Wadell's roundness to shapes whose roundness is known."""
     polygons: list[Shape] = [
@@ -125,19 +129,9 @@ def _box(half_width: float, radius: float) -> Floats:
     )
 
 
-CASES = (
-    Case(
-        name="roundness",
-        what="Wadell's roundness by size in pixels, on shapes whose roundness is known",
-        run=roundness_by_size,
-        sizes={
-            "smallest": {"sizes_px": (30,), "charts": 1, "scenes": 1, "turns": 2},
-            "full": {
-                "sizes_px": (30, 60, 100, 200, 500, 1000),
-                "charts": 3,
-                "scenes": 14,
-                "turns": 8,
-            },
-        },
-    ),
+ROUNDNESS_CASE = Case(
+    name="roundness",
+    what="Wadell's roundness by size in pixels, on shapes whose roundness is known",
+    run=roundness_by_size,
+    smallest={"sizes_px": (30,), "charts": 1, "scenes": 1, "turns": 2},
 )

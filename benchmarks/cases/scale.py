@@ -17,7 +17,7 @@ from validation.scores.scoring import score_values
 from validation.suite.suite import Suite
 
 
-def scene_cost(*, preset: str, scenes: int, copies: int) -> list[Table]:
+def scene_cost(*, preset: str = "", scenes: int = 4, copies: int = 250) -> list[Table]:
     """Time the scenes of suite `ci` in one worker, then what the parent does with them."""
     suite = chosen_suite("ci", preset=preset)
     one = msgspec.structs.replace(suite.experiments[0], scenes=scenes, pictured=0)
@@ -69,14 +69,9 @@ def _worked(suite: Suite, folder: str) -> tuple[float, float]:
     return timed(work).cpu_s, memory_mb(peak=True)
 
 
-CASES = (
-    Case(
-        name="scale",
-        what="a scene of suite `ci`, six rocks in four views of 1024²: worker and parent",
-        run=scene_cost,
-        sizes={
-            "smallest": {"preset": "imp", "scenes": 1, "copies": 2},
-            "full": {"preset": "", "scenes": 4, "copies": 250},
-        },
-    ),
+SCALE_CASE = Case(
+    name="scale",
+    what="a scene of suite `ci`, six rocks in four views of 1024²: worker and parent",
+    run=scene_cost,
+    smallest={"preset": "imp", "scenes": 1, "copies": 2},
 )

@@ -57,7 +57,9 @@ def field(
     return next(made_views(convert_spec(table | rest, where="field"))).observation
 
 
-def speed(*, preset: str, fields: tuple[str, ...], rounds: int) -> list[Table]:
+def speed(
+    *, preset: str = "msl-navcam", fields: tuple[str, ...] = tuple(FIELDS), rounds: int = 5
+) -> list[Table]:
     """Time each method of segmentation on rendered fields with stereo noise."""
     rows: list[tuple[Cell, ...]] = []
     for name in fields:
@@ -81,7 +83,7 @@ def speed(*, preset: str, fields: tuple[str, ...], rounds: int) -> list[Table]:
     return [Table(columns, rows)]
 
 
-def accuracy(*, only: tuple[str, ...], preset: str, jobs: int) -> list[Table]:
+def accuracy(*, only: tuple[str, ...] = (), preset: str = "", jobs: int = 2) -> list[Table]:
     """Run the suite `segmentation` and table F1 and mean IoU by range, family, width, distance."""
     suite = chosen_suite("segmentation", only=only, preset=preset)
     records = validation.run(suite, jobs=jobs).records
@@ -145,25 +147,18 @@ def _counted(rows: pd.DataFrame) -> int:
     return int(rows["status"].isin(["matched", "missed"]).sum())
 
 
-CASES = (
-    Case(
-        name="segmentation_speed",
-        what="finding the rocks of rendered fields with stereo noise",
-        run=speed,
-        sizes={
-            "smallest": {"preset": "imp", "fields": ("sparse",), "rounds": 1},
-            "full": {"preset": "msl-navcam", "fields": tuple(FIELDS), "rounds": 5},
-        },
-        peer="cv2.connectedComponentsWithStats on the mask of what stands there",
-    ),
-    Case(
-        name="segmentation_accuracy",
-        what="F1 at IoU > 0.5 and mean IoU of those found, suite `segmentation`",
-        run=accuracy,
-        sizes={
-            "smallest": {"only": ("sparse",), "preset": "imp", "jobs": 1},
-            "full": {"only": (), "preset": "", "jobs": 2},
-        },
-        slow=True,
-    ),
+SEGMENTATION_SPEED_CASE = Case(
+    name="segmentation_speed",
+    what="finding the rocks of rendered fields with stereo noise",
+    run=speed,
+    smallest={"preset": "imp", "fields": ("sparse",), "rounds": 1},
+    peer="cv2.connectedComponentsWithStats on the mask of what stands there",
+)
+
+SEGMENTATION_ACCURACY_CASE = Case(
+    name="segmentation_accuracy",
+    what="F1 at IoU > 0.5 and mean IoU of those found, suite `segmentation`",
+    run=accuracy,
+    smallest={"only": ("sparse",), "preset": "imp", "jobs": 1},
+    slow=True,
 )

@@ -15,7 +15,7 @@ RAYS = np.array([[0.35, -0.55, 0.76], [0.9, 0.1, 0.4], [-0.2, 0.9, 0.4]])
 PLANES = [plane_across(ray) for ray in RAYS]
 
 
-def smoothing(*, scenes: int) -> list[Table]:
+def smoothing(*, scenes: int = 6) -> list[Table]:
     """Return what smoothing and relief make of an exact roundness, on graded polyhedra."""
     found = []
     for seed in range(scenes):
@@ -39,11 +39,9 @@ def smoothing(*, scenes: int) -> list[Table]:
     return [Table((*columns, *(Column(head, "", ".2f") for head in heads)), rows)]
 
 
-CASES = (
-    Case(
-        name="truth_smoothing",
-        what="roundness of smoothed outlines of graded polyhedra beside the exact one",
-        run=smoothing,
-        sizes={"smallest": {"scenes": 1}, "full": {"scenes": 6}},
-    ),
+TRUTH_SMOOTHING_CASE = Case(
+    name="truth_smoothing",
+    what="roundness of smoothed outlines of graded polyhedra beside the exact one",
+    run=smoothing,
+    smallest={"scenes": 1},
 )

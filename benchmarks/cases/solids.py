@@ -44,7 +44,9 @@ DISTANCES_M = {"form": (3.0, 4.5, 8.0), "graded": (3.0, 4.5), "relief": (4.5,)}
 RUNS = tuple((series, m) for series, all_ in DISTANCES_M.items() for m in all_)
 
 
-def against_truth(*, runs: tuple[tuple[str, float], ...], scenes: int, preset: str) -> list[Table]:
+def against_truth(
+    *, runs: tuple[tuple[str, float], ...] = RUNS, scenes: int = 99, preset: str = "msl-navcam"
+) -> list[Table]:
     """Measure each series at its distance with true masks, exact range and stereo noise."""
     rows = []
     for series, distance_m in runs:
@@ -131,7 +133,7 @@ def _tau_in_views(records: pd.DataFrame, column: str, *, falls: bool) -> float:
     return float(np.mean(taus)) if taus else float("nan")
 
 
-def scanned(*, scans: int, views: int, preset: str) -> list[Table]:
+def scanned(*, scans: int = 99, views: int = 12, preset: str = "msl-navcam") -> list[Table]:
     """Compare the sphericity of single views of scanned rocks with that of the whole mesh."""
     rows: list[tuple[Cell, ...]] = []
     errors: dict[tuple[str, str], list[NDArray[np.float64]]] = {}
@@ -173,27 +175,16 @@ def whole_sphericity(mesh: Mesh, *, samples: int = 6000) -> float:
     return float("nan") if fit is None else sphericity_3d(fit.ellipsoid.half_axes_m)
 
 
-CASES = (
-    Case(
-        name="solids",
-        what="3-D measures against truth, rocks of 0.28 to 0.42 m with their true masks",
-        run=against_truth,
-        sizes={
-            "smallest": {"runs": (("form", 6.0),), "scenes": 1, "preset": "imp"},
-            "full": {
-                "runs": RUNS,
-                "scenes": 99,
-                "preset": "msl-navcam",
-            },
-        },
-    ),
-    Case(
-        name="scans",
-        what="3-D sphericity of the scanned rocks in examples/rocks, single views against the mesh",
-        run=scanned,
-        sizes={
-            "smallest": {"scans": 1, "views": 1, "preset": "imp"},
-            "full": {"scans": 99, "views": 12, "preset": "msl-navcam"},
-        },
-    ),
+SOLIDS_CASE = Case(
+    name="solids",
+    what="3-D measures against truth, rocks of 0.28 to 0.42 m with their true masks",
+    run=against_truth,
+    smallest={"runs": (("form", 6.0),), "scenes": 1, "preset": "imp"},
+)
+
+SCANS_CASE = Case(
+    name="scans",
+    what="3-D sphericity of the scanned rocks in examples/rocks, single views against the mesh",
+    run=scanned,
+    smallest={"scans": 1, "views": 1, "preset": "imp"},
 )

@@ -50,7 +50,7 @@ QUALITIES = (
 )
 
 
-def model_and_matcher(*, presets: tuple[str, ...], grounds: int) -> list[Table]:
+def model_and_matcher(*, presets: tuple[str, ...] = PRESETS, grounds: int = 2) -> list[Table]:
     """Compare errors of depth and disparity, holes and correlation of the errors."""
     groups = [group for preset in presets for group in preset_groups(preset, grounds)]
     rows: list[tuple[Cell, ...]] = []
@@ -154,14 +154,9 @@ def preset_groups(preset: str, grounds: int = len(GROUNDS)) -> Iterator[Group]:
         yield compared(preset, quality, rig, pairs[quality.name], (model_s, matcher_s))
 
 
-CASES = (
-    Case(
-        name="stereo_model",
-        what="stereo error model beside OpenCV's StereoSGBM on the same views, seeds of their own",
-        run=model_and_matcher,
-        sizes={
-            "smallest": {"presets": ("imp",), "grounds": 1},
-            "full": {"presets": PRESETS, "grounds": 2},
-        },
-    ),
+STEREO_MODEL_CASE = Case(
+    name="stereo_model",
+    what="stereo error model beside OpenCV's StereoSGBM on the same views, seeds of their own",
+    run=model_and_matcher,
+    smallest={"presets": ("imp",), "grounds": 1},
 )

@@ -1,5 +1,6 @@
 """Measurement of arrays: from pixels and range to the measures of each rock in one call."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -7,12 +8,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from rockshape.camera.camera import Camera, PinholeLike, as_camera
 from rockshape.errors import InputError
-from rockshape.io import read_camera, read_labels, read_pixels, read_range
+from rockshape.io import read_camera, read_labels, read_pixels, read_points
 from rockshape.io.pixels import to_grey
 from rockshape.measurement import Measurement
 from rockshape.method import Method
 from rockshape.observation import Observation
 from rockshape.pipeline import measure as measure_observation
+from rockshape.point_grid.points import PointReading, RangeKind, points_from
+from rockshape.point_grid.units import RangeScale
 from rockshape.rock.instances import Instances
 
 
@@ -32,7 +35,7 @@ def measure(
       Observation, as `rockshape.read` returns, which brings its own range and camera. It may be
       left out where range or labels are given.
     - range_m: points (rows, cols, 3) in the camera frame, or z-depth (rows, cols) with a camera;
-      metres, NaN, infinity or, in z-depth, 0 where nothing was measured.
+      metres. NaN, infinity, a z-depth of 0 and the point (0, 0, 0) are no measurement.
     - camera: what took the image, any object with fx, fy, cx, cy in pixels. Needed for z-depth;
       else found from the points.
     - labels: rocks outlined already: (rows, cols) of whole numbers, 0 the ground, or Instances.
@@ -75,9 +78,11 @@ def observe(
     if not shapes:
         raise InputError("measure: expected image, range_m or labels, found none of them")
     known = None if camera is None else as_camera(camera, shape=shapes[0])
+    seen = None if points is None else _points(points, known)
     return Observation(
         image=np.zeros(shapes[0], dtype=np.float32) if pixels is None else to_grey(pixels),
-        points_m=None if points is None else _points(points, known),
+        points_m=None if seen is None else seen.points_m,
+        left_out={} if seen is None else seen.left_out,
         camera=known,
         colour=pixels if pixels is not None and pixels.ndim == 3 else None,
         instances=instances,
@@ -88,23 +93,32 @@ def read(
     image: Path | str,
     *,
     range: Path | str | None = None,  # noqa: A002 - as the command line has it
+    range_kind: RangeKind | None = None,
+    range_unit: str | None = None,
     camera: Path | str | None = None,
     labels: Path | str | None = None,
 ) -> Observation:
     """Observation of files, as `rockshape measure` reads them; `measure` takes it.
 
-    The formats are those of `rockshape formats`. With labels, `measure` measures those rocks.
+    The formats are those of `rockshape formats`. range_kind tells what the range file holds, if not
+    what its format and shape do; range_unit is the unit of its numbers, `mm` or `0.25mm` say. With
+    labels, `measure` measures those rocks.
     Raises: InputError, which names the file, for what cannot be read or does not fit the image.
     """
     pixels = read_pixels(image)
     known = None if camera is None else read_camera(camera, shape=pixels.shape)
-    points_m = None
+    seen = None
     if range is not None:
-        points_m = read_range(range, shape=pixels.shape, camera=known)
+        seen = read_points(
+            range, shape=pixels.shape, camera=known, kind=range_kind, unit=range_unit
+        )
     instances = None
     if labels is not None:
         instances = read_labels(labels, shape=pixels.shape, image_name=Path(image).name)
-    return observe(pixels, range_m=points_m, camera=known, labels=instances)
+    observation = observe(pixels, camera=known, labels=instances)
+    if seen is None:
+        return observation
+    return replace(observation, points_m=seen.points_m, left_out=seen.left_out)
 
 
 def _instances(labels: ArrayLike | Instances) -> Instances:
@@ -113,20 +127,18 @@ def _instances(labels: ArrayLike | Instances) -> Instances:
     return Instances.from_labels(_whole(np.asarray(labels)))
 
 
-def _points(range_m: NDArray[np.generic], camera: Camera | None) -> NDArray[np.float64]:
+def _points(range_m: NDArray[np.generic], camera: Camera | None) -> PointReading:
     """Points (rows, cols, 3), a fresh array; one with any part unknown is unknown whole."""
-    if range_m.dtype.kind not in "fiu":
-        raise InputError(f"range_m: expected numbers, found {range_m.dtype}")
-    points = np.array(range_m, dtype=np.float64)
-    if points.ndim == 2:
-        if camera is None:
-            raise InputError("range_m: expected a camera to turn z-depth into points, found none")
-        points[~(points > 0)] = np.nan
-        points = camera.unproject(points)
-    if points.ndim != 3 or points.shape[2] != 3:
-        raise InputError(f"range_m: expected (rows, cols) or (rows, cols, 3), found {points.shape}")
-    points[~np.isfinite(points).all(axis=-1)] = np.nan
-    return points
+    by_dimensions: dict[int, RangeKind] = {2: "depth", 3: "xyz"}
+    kind = by_dimensions.get(range_m.ndim)
+    if kind is None or (kind == "xyz" and range_m.shape[2] != 3):
+        raise InputError(
+            f"range_m: expected (rows, cols) or (rows, cols, 3), found {range_m.shape}"
+        )
+    try:
+        return points_from(range_m, kind=kind, camera=camera, scale=RangeScale())
+    except InputError as error:
+        raise InputError(f"range_m: {error}") from None
 
 
 def _whole(labels: NDArray[np.generic]) -> NDArray[np.int32]:

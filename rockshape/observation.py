@@ -1,6 +1,7 @@
 """Observation: an image and, where it was measured, the point seen at each pixel."""
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -44,6 +45,7 @@ class Observation:
     resection: "Resection | None" = None
     colour: NDArray[np.generic] | None = None  # (rows, cols, channels), as given; None: grey alone
     instances: Instances | None = None  # rocks outlined already; None: they are to be found
+    left_out: Mapping[str, int] = field(default_factory=dict)  # pixels without range, by reason
 
     def __post_init__(self) -> None:
         shape = self.image.shape

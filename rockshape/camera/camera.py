@@ -13,14 +13,15 @@ from numpy.typing import NDArray
 from rockshape.errors import InputError
 
 INTRINSICS = ("fx", "fy", "cx", "cy")
+MAX_NUMBER = 1e9  # of px or mm; what is larger is a mistake
 
 
 @runtime_checkable
 class PinholeLike(Protocol):
     """Any object with the intrinsics of a pinhole camera, px.
 
-    It may have `width` and `height`, px, `depth_scale`, mm a step of integer range, and
-    `distortion`, coefficients that must all be zero.
+    It may have `width` and `height`, px, `depth_scale`, mm a step of integer range, or
+    `depth_scale_m`, metres a step, and `distortion`, coefficients that must all be zero.
     """
 
     @property
@@ -44,8 +45,8 @@ class PinholeLike(Protocol):
 class Camera:
     """Intrinsics of a pinhole camera without distortion.
 
-    Raises: InputError where a focal length or a side is not positive, or the principal point not
-    finite.
+    Raises: InputError where a focal length or a side is not positive, the principal point not
+    finite, or a number too large to be meant.
     """
 
     fx: float  # px
@@ -58,7 +59,7 @@ class Camera:
 
     def __post_init__(self) -> None:
         for name in ("cx", "cy"):
-            if not np.isfinite(getattr(self, name)):
+            if not np.abs(getattr(self, name)) <= MAX_NUMBER:
                 raise InputError(
                     f"camera: {name}: expected a finite number, found {getattr(self, name)}"
                 )
@@ -66,6 +67,8 @@ class Camera:
             value = getattr(self, name)
             if value is not None and not (np.isfinite(value) and value > 0):
                 raise InputError(f"camera: {name}: expected a positive number, found {value}")
+            if value is not None and value > MAX_NUMBER:
+                raise InputError(f"camera: {name}: expected at most {MAX_NUMBER:g}, found {value}")
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -126,7 +129,6 @@ def as_camera(like: object, *, shape: tuple[int, ...] | None = None) -> Camera:
     height, width = getattr(like, "height", None), getattr(like, "width", None)
     if height is None and width is None and shape is not None:
         height, width = shape[:2]
-    depth_scale = getattr(like, "depth_scale", None)
     fx, fy, cx, cy = (_number(name, getattr(like, name)) for name in INTRINSICS)
     return Camera(
         fx=fx,
@@ -135,13 +137,31 @@ def as_camera(like: object, *, shape: tuple[int, ...] | None = None) -> Camera:
         cy=cy,
         width=_pixels("width", width),
         height=_pixels("height", height),
-        depth_scale=None if depth_scale is None else _number("depth_scale", depth_scale),
+        depth_scale=_depth_scale(like),
     )
 
 
+def _depth_scale(like: object) -> float | None:
+    """Millimetres a step of integer range, of depth_scale or depth_scale_m.
+
+    Raises: InputError where the two differ.
+    """
+    mm, metres = getattr(like, "depth_scale", None), getattr(like, "depth_scale_m", None)
+    steps = [_number("depth_scale", mm)] if mm is not None else []
+    steps += [1000 * _number("depth_scale_m", metres)] if metres is not None else []
+    if len(steps) == 2 and abs(steps[1] - steps[0]) > 1e-6 * abs(steps[1]):
+        raise InputError(
+            f"camera: depth_scale: expected mm a step, as depth_scale_m {metres} m is, found {mm}"
+        )
+    return steps[0] if steps else None
+
+
 def _number(name: str, value: object) -> float:
-    if isinstance(value, (int, float, np.number)):
-        return float(value)
+    if isinstance(value, (int, float, np.number)) and not isinstance(value, bool):
+        try:
+            return float(value)
+        except OverflowError:
+            return np.inf
     raise InputError(f"camera: {name}: expected a number, found {value!r}")
 
 

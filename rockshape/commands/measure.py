@@ -36,6 +36,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "measures are empty",
     )
     inputs.add_argument(
+        "--range-kind",
+        choices=("depth", "distance", "disparity", "xyz"),
+        help="what the range holds: z-depth, length along the ray, disparity or points, if not "
+        "what its format and shape tell",
+    )
+    inputs.add_argument(
+        "--range-unit",
+        metavar="UNIT",
+        help="unit of the range, m, mm or 0.25mm say: in place of metres, and of depth_scale for "
+        "whole numbers; any distance is then believed",
+    )
+    inputs.add_argument(
         "--camera",
         type=Path,
         metavar="FILE",

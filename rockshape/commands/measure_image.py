@@ -14,6 +14,7 @@ from rockshape.io.registry import IMAGES, LABELS, TABLES
 from rockshape.measurement import Measurement, to_frame
 from rockshape.method import find_method
 from rockshape.pipeline import measure
+from rockshape.point_grid.points import RangeKind
 from rockshape.report.overlay import overlay
 
 PAGES = (".html", ".htm")
@@ -25,6 +26,8 @@ class MeasureOptions:
 
     image: Path
     range: Path | None
+    range_kind: RangeKind | None
+    range_unit: str | None
     camera: Path | None
     labels: Path | None
     find: str | None
@@ -46,7 +49,12 @@ def measure_image(options: MeasureOptions) -> None:
     method = find_method(options.method)
     _check_outputs(options)
     observation = read(
-        options.image, range=options.range, camera=options.camera, labels=options.labels
+        options.image,
+        range=options.range,
+        range_kind=options.range_kind,
+        range_unit=options.range_unit,
+        camera=options.camera,
+        labels=options.labels,
     )
     encoded = None
     if options.labels_out is not None and observation.instances is not None:

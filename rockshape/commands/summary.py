@@ -25,6 +25,10 @@ def summarise(measurement: Measurement) -> str:
     if observation.resection is not None:
         residual = observation.resection.residual_px
         parts.append(f"camera resected from the range, residual {residual:.2f} px")
+    if observation.left_out:
+        why = ", ".join(f"{reason} {count}" for reason, count in observation.left_out.items())
+        total = sum(observation.left_out.values())
+        parts.append(f"range of {total} of {observation.image.size} pixels left out ({why})")
     return "; ".join(parts)
 
 

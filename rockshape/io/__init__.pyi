@@ -12,6 +12,7 @@ from .readers import read_camera as read_camera
 from .readers import read_image as read_image
 from .readers import read_labels as read_labels
 from .readers import read_pixels as read_pixels
+from .readers import read_points as read_points
 from .readers import read_range as read_range
 from .registry import known_formats as known_formats
 from .registry import register_format as register_format

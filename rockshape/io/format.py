@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
     from rockshape.camera.camera import Camera
     from rockshape.io.files import InputFile
+    from rockshape.point_grid.points import RangeKind
     from rockshape.rock.instances import Instances
 
 Kind = Literal["image", "labels", "range", "camera", "table"]
@@ -50,13 +51,16 @@ class ImageInfo:
 
 @dataclass(frozen=True, eq=False)
 class RangeRaster:
-    """Range as a file holds it, (rows, cols) z-depth or (rows, cols, 3) points.
+    """Range as a file holds it: (rows, cols), or (rows, cols, 3) points.
 
-    In metres, or in the steps that a camera's depth_scale defines, 0 where nothing was measured.
+    In metres, or in the steps that a camera's depth_scale defines; whole numbers always are steps.
+    What is no measurement is left as the file has it: zeros, infinities, saturated steps.
     """
 
     values: "NDArray[np.generic]"
     unit: Literal["m", "step"] = "m"
+    kind: "RangeKind | None" = None  # None: depth of (rows, cols), xyz of (rows, cols, 3)
+    no_data: tuple[float, ...] = ()  # constants that the file says stand for no measurement
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,9 +11,11 @@ from numpy.typing import NDArray
 
 from rockshape.camera.camera import Camera
 from rockshape.errors import InputError
-from rockshape.io.format import ImageInfo, RangeRaster
+from rockshape.io.decoding.range_raster import points_of
+from rockshape.io.format import ImageInfo
 from rockshape.io.pixels import to_unit
 from rockshape.io.registry import CAMERAS, IMAGES, LABELS, RANGES
+from rockshape.point_grid.points import PointReading, RangeKind
 from rockshape.rock.instances import Instances
 
 
@@ -52,19 +54,41 @@ def read_labels(path: Path | str, *, shape: tuple[int, ...], image_name: str = "
 
 
 def read_range(
-    path: Path | str, *, shape: tuple[int, ...], camera: Camera | None
+    path: Path | str,
+    *,
+    shape: tuple[int, ...],
+    camera: Camera | None,
+    kind: RangeKind | None = None,
+    unit: str | None = None,
 ) -> NDArray[np.float64]:
-    """Points (rows, cols, 3), m, NaN where nothing was measured.
+    """Points (rows, cols, 3), m, NaN where nothing was measured: those of `read_points`."""
+    return read_points(path, shape=shape, camera=camera, kind=kind, unit=unit).points_m
 
-    The file holds points, taken as they are, or z-depth, which needs the camera. shape is the
-    image's. A point with any coordinate infinite or NaN is NaN in all.
-    Raises: InputError where the file is no such range or of another shape.
+
+def read_points(
+    path: Path | str,
+    *,
+    shape: tuple[int, ...],
+    camera: Camera | None,
+    kind: RangeKind | None = None,
+    unit: str | None = None,
+) -> PointReading:
+    """Points (rows, cols, 3), m, of a range file, and how many of its values are none.
+
+    - shape: the image's.
+    - camera: what took the image; all but points need it, whole numbers need its depth_scale.
+    - kind: what the file holds, if not what its format and shape tell.
+    - unit: of its numbers, `mm` or `0.25mm` say, in place of metres and of depth_scale.
+
+    Zeros, infinities, saturated steps and no-data constants are no measurement.
+    Raises: InputError where the file is no such range or of another shape, and where the median
+        range is below 1 cm or above 200 m and no unit is given.
     """
     info = _image_info(shape)
     with RANGES.open(path, image_shape=info.shape) as (file, chosen):
         raster = chosen.read(file, info)
     try:
-        return _points(raster, info, camera)
+        return points_of(raster, info, camera=camera, kind=kind, unit=unit)
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
 
@@ -81,36 +105,3 @@ def read_camera(path: Path | str, *, shape: tuple[int, ...] | None = None) -> Ca
 
 def _image_info(shape: tuple[int, ...], name: str = "") -> ImageInfo:
     return ImageInfo((shape[0], shape[1]), name)
-
-
-def _points(raster: RangeRaster, info: ImageInfo, camera: Camera | None) -> NDArray[np.float64]:
-    values = raster.values
-    if values.dtype.kind not in "fiu":
-        raise InputError(f"expected numbers, found {values.dtype}")
-    if values.shape not in (info.shape, (*info.shape, 3)):
-        raise InputError(
-            f"expected {info.shape} or {(*info.shape, 3)} as the image has, found {values.shape}"
-        )
-    metres = np.array(values, dtype=np.float64)
-    if raster.unit == "step":
-        metres *= _step_m(camera)
-    if metres.ndim == 2:
-        if camera is None:
-            raise InputError(
-                "z-depth: expected a camera (--camera) to turn it into points, found none"
-            )
-        metres[~(metres > 0)] = np.nan
-        metres = camera.unproject(metres)
-    metres[~np.isfinite(metres).all(axis=-1)] = np.nan
-    return metres
-
-
-def _step_m(camera: Camera | None) -> float:
-    """Length of a step of integer range, m."""
-    if camera is None:
-        raise InputError(
-            "z-depth in steps: expected a camera with depth_scale (--camera), found none"
-        )
-    if camera.depth_scale is None:
-        raise InputError("z-depth in steps: expected depth_scale in the camera file")
-    return camera.depth_scale / 1000

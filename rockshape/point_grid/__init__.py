@@ -1,1 +1,1 @@
-"""Validity of measured points, decided once, before anything is fitted to them."""
+"""Range of an image by its meaning: what is no measurement, units, and a point for each pixel."""

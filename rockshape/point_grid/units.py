@@ -1,40 +1,81 @@
-"""Unit of range: metres, or what the caller says; implausible scenes are refused."""
+"""Units of range, and the distances at which a scene can lie."""
+
+import re
+from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from rockshape.errors import InputError, unknown_name
-from rockshape.numerics.arrays import Floats
+from rockshape.errors import InputError, did_you_mean
 
-RANGE_UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001}
-NEAREST_M, FARTHEST_M = 0.01, 200.0  # median distances of scenes that rocks are measured in
+UNITS_M = {
+    "km": 1e3,
+    "m": 1.0,
+    "dm": 1e-1,
+    "cm": 1e-2,
+    "mm": 1e-3,
+    "um": 1e-6,
+    "ft": 0.3048,
+    "in": 0.0254,
+}
+MIN_RANGE_M = 0.01
+MAX_RANGE_M = 200.0
+FINE_STEP_M = 1e-5  # a step of integer range below this is rare but for a mistaken unit
+MIN_FINE_RANGE_M = 0.1  # with such steps
 
 
-def metres_per(unit: str | None) -> float:
-    """Metres in a range unit; None is metres.
+@dataclass(frozen=True)
+class RangeScale:
+    """Length of one unit of the numbers that a range file holds, and who said so."""
 
-    Raises: InputError for an unknown unit.
+    metres: float = 1.0
+    said: str = "metres"  # for the messages
+    meant: bool = False  # whether the user said it, so that any distance is believed
+
+
+def parse_unit(text: str) -> RangeScale:
+    """Scale of a unit's name, `mm`, or of a number of them, `0.25mm`.
+
+    Raises: InputError for any other text.
     """
-    if unit is None:
-        return 1.0
-    if unit not in RANGE_UNITS:
-        raise unknown_name("range_unit", unit, RANGE_UNITS)
-    return RANGE_UNITS[unit]
-
-
-def check_scene_distance(points_m: Floats, *, unit: str | None) -> None:
-    """Refuse points (rows, cols, 3) whose median distance no scene has, if no unit was stated.
-
-    Raises: InputError for a median below 1 cm or above 200 m, unless a unit says it is meant.
-    """
-    if unit is not None:
-        return
-    distance = np.sqrt((points_m**2).sum(axis=-1))
-    distance = distance[np.isfinite(distance)]
-    if len(distance) == 0:
-        return
-    median_m = float(np.median(distance))
-    if not NEAREST_M <= median_m <= FARTHEST_M:
+    parts = re.fullmatch(r"\s*([0-9.]+(?:[eE][-+]?[0-9]+)?)?\s*([a-zµμ]+)\s*", text)
+    name = parts[2].replace("µ", "u").replace("μ", "u") if parts else text
+    try:
+        count = float(parts[1] or 1) if parts else 0.0
+    except ValueError:
+        count = 0.0
+    if name not in UNITS_M or not (np.isfinite(count) and count > 0):
         raise InputError(
-            f"range: expected a median distance from {NEAREST_M:g} to {FARTHEST_M:g} m, found "
-            f"{median_m:.3g} m; if it is meant, state its unit (range_unit, --range-unit)"
+            f"--range-unit: expected {', '.join(UNITS_M)} or a number of them, 0.25mm say, "
+            f"found {text!r}{did_you_mean(name, UNITS_M)}"
         )
+    return RangeScale(count * UNITS_M[name], f"--range-unit {text.strip()}", meant=True)
+
+
+def check_distance(points_m: NDArray[np.float64], scale: RangeScale) -> None:
+    """Check the median distance of points (rows, cols, 3) from their origin.
+
+    Raises: InputError below 1 cm and above 200 m, unless the scale is meant: a camera's scene lies
+    between, and the unit is probably another.
+    """
+    distances = np.sqrt((points_m**2).sum(axis=-1))
+    known = distances[np.isfinite(distances)]
+    if scale.meant or not len(known):
+        return
+    median = float(np.median(known))
+    least = MIN_FINE_RANGE_M if scale.metres < FINE_STEP_M else MIN_RANGE_M
+    if least <= median <= MAX_RANGE_M:
+        return
+    raise InputError(
+        f"range: expected a median of {least:g} to {MAX_RANGE_M:g} m, "
+        f"found {median:.3g} m with {scale.said}; {_advice(scale)}"
+    )
+
+
+def _advice(scale: RangeScale) -> str:
+    if scale.said == "metres":
+        return "name the file's unit with --range-unit mm, cm, m, ..."
+    return (
+        "depth_scale is mm a step, depth_scale_m metres a step; "
+        f"--range-unit {scale.metres * 1e3:g}mm if it is meant"
+    )

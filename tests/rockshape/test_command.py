@@ -155,7 +155,9 @@ def test_range_that_is_nan_everywhere_still_measures_the_flat_columns(tmp_path: 
     assert frame["reason"].str.contains("no range").all()
 
 
-def test_range_that_is_zero_everywhere_says_degenerate(tmp_path: Path) -> None:
+def test_range_that_is_zero_everywhere_is_no_range(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     range_path = tmp_path / "zero.npy"
     np.save(range_path, np.zeros((512, 512, 3)))
     table = tmp_path / "t.csv"
@@ -163,4 +165,5 @@ def test_range_that_is_zero_everywhere_says_degenerate(tmp_path: Path) -> None:
     assert main(["measure", str(GRAINS_IMAGE), *arguments]) == 0
     frame = pd.read_csv(table)
     assert frame["sphericity_3d"].isna().all()
-    assert frame["reason"].str.contains("degenerate").any()
+    assert frame["reason"].str.contains("no range").all()
+    assert "range of 262144 of 262144 pixels left out (zero 262144)" in capsys.readouterr().err

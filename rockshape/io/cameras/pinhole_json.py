@@ -20,6 +20,7 @@ class _Intrinsics(msgspec.Struct):
     width: int | None = None
     height: int | None = None
     depth_scale: float | None = None
+    depth_scale_m: float | None = None
     distortion: list[float] | None = None  # OpenCV's coefficients
 
 
@@ -48,6 +49,6 @@ FORMAT = CameraFormat(
     name="pinhole JSON",
     suffixes=(".json",),
     summary="object with `fx`, `fy`, `cx`, `cy`, px; `width`, `height`, px, unless the image's; "
-    "`depth_scale`, mm a step of integer range",
+    "`depth_scale`, mm a step of integer range, or `depth_scale_m`, metres a step",
     read=read_pinhole,
 )

@@ -17,7 +17,8 @@ def read_npy(file: "InputFile", _: ImageInfo) -> RangeRaster:
 FORMAT = RangeFormat(
     name="NPY",
     suffixes=(".npy",),
-    summary="array of z-depth (rows, cols) or points (rows, cols, 3), m",
+    summary="array of z-depth (rows, cols) or points (rows, cols, 3), m, or whole steps of "
+    "`depth_scale`",
     sniff=magic(NPY_MAGIC),
     read=read_npy,
 )

@@ -22,7 +22,8 @@ def read_npz(file: "InputFile", _: ImageInfo) -> RangeRaster:
 FORMAT = RangeFormat(
     name="NPZ",
     suffixes=(".npz",),
-    summary="array `xyz` of points (rows, cols, 3), else `depth` of z-depth (rows, cols), m",
+    summary="array `xyz` of points (rows, cols, 3), else `depth` of z-depth (rows, cols), m, "
+    "or whole steps of `depth_scale`",
     sniff=magic(ZIP_MAGIC),
     read=read_npz,
 )

@@ -61,7 +61,7 @@ def test_png_depth_needs_the_size_of_a_step(tmp_path: Path, scale: object, says:
     path = tmp_path / "depth.png"
     cv2.imwrite(str(path), np.full((2, 2), 900, dtype=np.uint16))
     camera = Camera(fx=2.0, fy=2.0, cx=0.5, cy=0.5, width=2, height=2) if scale is None else None
-    with pytest.raises(InputError, match=rf"depth\.png: z-depth in steps: {says}"):
+    with pytest.raises(InputError, match=rf"depth\.png: range in whole steps: {says}"):
         read_range(path, shape=(2, 2), camera=camera)
 
 

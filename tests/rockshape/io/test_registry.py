@@ -97,7 +97,7 @@ def marked(name: str, value: float, **options: object) -> RangeFormat:
     """A format whose every file holds the value."""
 
     def read(_: object, info: object) -> RangeRaster:
-        return RangeRaster(np.full((*info.shape, 3), value))
+        return RangeRaster(np.full((*info.shape, 3), float(value)))
 
     return RangeFormat(name=name, suffixes=(".npy",), summary="a number", read=read, **options)
 

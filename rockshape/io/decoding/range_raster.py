@@ -1,0 +1,67 @@
+"""Range rasters: the points that a range file's values stand for."""
+
+import numpy as np
+
+from rockshape.camera.camera import Camera
+from rockshape.errors import InputError
+from rockshape.io.format import ImageInfo, RangeRaster
+from rockshape.point_grid.points import KINDS, PointReading, RangeKind, points_from
+from rockshape.point_grid.units import RangeScale, parse_unit
+
+
+def points_of(
+    raster: RangeRaster,
+    info: ImageInfo,
+    *,
+    camera: Camera | None,
+    kind: RangeKind | None = None,
+    unit: str | None = None,
+) -> PointReading:
+    """Points of a raster, of a kind and in a unit if not those that the file itself tells.
+
+    Raises: InputError where the raster is not of the image's shape or of the kind, and what
+    `points_from` refuses.
+    """
+    values = raster.values
+    if values.ndim == 3 and values.shape[2] == 1:
+        values = values[..., 0]
+    if values.shape not in (info.shape, (*info.shape, 3)):
+        raise InputError(
+            f"expected {info.shape} or {(*info.shape, 3)} as the image has, found {values.shape}"
+        )
+    if camera is not None and camera.shape != info.shape:
+        raise InputError(f"camera: expected {info.shape} as the image has, found {camera.shape}")
+    if values.dtype.kind not in "fiu":
+        raise InputError(f"expected numbers, found {values.dtype}")
+    return points_from(
+        values,
+        kind=_kind(raster, values.ndim, kind),
+        camera=camera,
+        scale=_scale(raster, camera, unit),
+        no_data=raster.no_data,
+    )
+
+
+def _kind(raster: RangeRaster, dimensions: int, asked: RangeKind | None) -> RangeKind:
+    by_shape: RangeKind = "depth" if dimensions == 2 else "xyz"
+    if asked is not None and asked not in KINDS:
+        raise InputError(f"--range-kind: expected one of {', '.join(KINDS)}, found {asked!r}")
+    chosen = asked or raster.kind or by_shape
+    if (chosen == "xyz") != (dimensions == 3):
+        needed = "three values a pixel" if chosen == "xyz" else "one value a pixel"
+        raise InputError(f"--range-kind {chosen}: expected {needed}, found {raster.values.shape}")
+    return chosen
+
+
+def _scale(raster: RangeRaster, camera: Camera | None, unit: str | None) -> RangeScale:
+    """Scale of the values; a whole number is a count of steps, whatever the file type."""
+    if unit is not None:
+        return parse_unit(unit)
+    if raster.unit == "m" and not np.issubdtype(raster.values.dtype, np.integer):
+        return RangeScale()
+    if camera is None or camera.depth_scale is None:
+        needed = "depth_scale, mm a step, or depth_scale_m, metres a step, in the camera file"
+        if camera is None:
+            needed = "a camera with depth_scale (--camera)"
+        raise InputError(f"range in whole steps: expected {needed}, or --range-unit mm, found none")
+    return RangeScale(camera.depth_scale / 1000, f"depth_scale {camera.depth_scale:g} mm")

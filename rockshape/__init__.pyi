@@ -34,6 +34,7 @@ from .rock.instances import Instance as Instance
 from .rock.instances import Instances as Instances
 from .rock.view import RockView as RockView
 from .segmentation import FINDERS as FINDERS
+from .segmentation import Finder as Finder
 from .segmentation import FoundRock as FoundRock
 from .segmentation import Segmentation as Segmentation
 

@@ -17,6 +17,7 @@ from rockshape.pipeline import measure as measure_observation
 from rockshape.point_grid.points import PointReading, RangeKind, points_from
 from rockshape.point_grid.units import RangeScale
 from rockshape.rock.instances import Instances
+from rockshape.segmentation.finders import Finder
 
 
 def measure(
@@ -26,7 +27,7 @@ def measure(
     camera: PinholeLike | None = None,
     labels: ArrayLike | Instances | None = None,
     method: str | Method = "robust",
-    find: str | None = None,
+    find: str | Finder | None = None,
     descriptors: bool = False,
 ) -> Measurement:
     """Find the rocks in one image and measure each.
@@ -41,7 +42,8 @@ def measure(
     - labels: rocks outlined already: (rows, cols) of whole numbers, 0 the ground, or Instances.
     - method: what is measured: `robust`, `paper`, another name in `rockshape.method.methods()`, or
       a Method.
-    - find: how rocks are found: `range`, `image`, `both` or `published`; else as the method does.
+    - find: how rocks are found: `range`, `image`, `both` or `published`, or a Finder; else as the
+      method does.
     - descriptors: whether each rock gets the descriptors of its outline too.
 
     Nothing that is given is changed. Without range, measures that need it are NaN with a reason.

@@ -9,15 +9,15 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cache
-from importlib.metadata import entry_points
 from types import MappingProxyType
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from rockshape import measures
 from rockshape.ellipse.direct import Ellipse
 from rockshape.ellipsoid import Ellipsoid
 from rockshape.errors import InputError, unknown_name
 from rockshape.measures import Measure
+from rockshape.plugins.entry_points import load_records
 from rockshape.rock.view import RockView
 from rockshape.segmentation.finders import FINDERS
 
@@ -28,8 +28,6 @@ if TYPE_CHECKING:
 
 METHODS_GROUP = "rockshape.methods"
 MEASURES_GROUP = "rockshape.measures"
-
-_Record = TypeVar("_Record")
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,24 +128,10 @@ def measure_of(column: str) -> Measure | None:
 
 @cache
 def _registry() -> dict[str, Method]:
-    own = replace(ROBUST, measures=(*ROBUST.measures, *_load(MEASURES_GROUP, Measure)))
+    own = replace(ROBUST, measures=(*ROBUST.measures, *load_records(MEASURES_GROUP, Measure)))
     found = {PAPER.name: PAPER, own.name: own}
-    for method in _load(METHODS_GROUP, Method):
+    for method in load_records(METHODS_GROUP, Method):
         if method.name in found:
             raise InputError(f"{METHODS_GROUP}: expected a name of its own, found {method.name!r}")
         found[method.name] = method
     return found
-
-
-def _load(group: str, record: type[_Record]) -> tuple[_Record, ...]:
-    """Records of a group of entry points, in the order of their names."""
-    loaded = []
-    for entry in sorted(entry_points(group=group), key=lambda entry: entry.name):
-        found = entry.load()
-        if not isinstance(found, record):
-            raise InputError(
-                f"entry point {entry.name!r} of {group}: expected a {record.__name__}, "
-                f"found {type(found).__name__}"
-            )
-        loaded.append(found)
-    return tuple(loaded)

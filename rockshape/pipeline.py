@@ -16,7 +16,7 @@ from rockshape.rock.blas_threads import one_blas_thread
 from rockshape.rock.instances import Instance, Instances, Window
 from rockshape.rock.view import RockView
 from rockshape.rock.visibility import visible_fraction
-from rockshape.segmentation.finders import find_finder
+from rockshape.segmentation.finders import Finder, find_finder
 
 if TYPE_CHECKING:
     from rockshape.ground import Ground
@@ -27,14 +27,14 @@ def measure(
     observation: Observation,
     *,
     method: str | Method = "robust",
-    find: str | None = None,
+    find: str | Finder | None = None,
     labels: NDArray[np.int32] | Instances | None = None,
     descriptors: bool = False,
 ) -> Measurement:
     """Find the rocks in an observation and measure each.
 
     - method: what is measured, and how rocks are found unless `find` says so.
-    - find: a name in `rockshape.segmentation.FINDERS`.
+    - find: a Finder, or a name in `rockshape.segmentation.finders()`.
     - labels: rocks outlined already, in place of the observation's own: a label image (rows, cols)
       with 0 the ground, or Instances. Nothing is then found. Of a rock in several pieces the
       largest is measured.
@@ -87,7 +87,7 @@ def _given(
 
 
 def _scene(
-    observation: Observation, method: Method, find: str | None, given: Instances | None
+    observation: Observation, method: Method, find: str | Finder | None, given: Instances | None
 ) -> _Scene:
     """Where the rocks are and what they stand on; of rocks that are given, the latter alone."""
     found: tuple[FoundRock, ...] = ()

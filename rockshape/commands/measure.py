@@ -62,9 +62,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     how = parser.add_argument_group("measuring")
     how.add_argument(
         "--find",
-        choices=tuple(FINDERS),
+        metavar="NAME",
         help="how rocks are found, if not as the method does: "
-        + "; ".join(f"{finder.name}: {finder.summary}" for finder in FINDERS.values()),
+        + "; ".join(f"{finder.name}: {finder.summary}" for finder in FINDERS.values())
+        + "; or a finder that a plug-in adds",
     )
     how.add_argument(
         "--method",

@@ -1,15 +1,23 @@
-"""Registry of rock finders: how the rocks of an observation are found."""
+"""Registry of rock finders: how the rocks of an observation are found.
+
+An entry point of the group `rockshape.finders` adds a finder.
+"""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cache
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from rockshape.errors import unknown_name
+from rockshape.errors import InputError, unknown_name
+from rockshape.plugins.entry_points import load_records
 
 if TYPE_CHECKING:
     from rockshape.observation import Observation
     from rockshape.segmentation.result import Segmentation
+
+
+FINDERS_GROUP = "rockshape.finders"
 
 
 @dataclass(frozen=True)
@@ -64,8 +72,24 @@ FINDERS: Mapping[str, Finder] = MappingProxyType(
 )
 
 
-def find_finder(name: str) -> Finder:
-    """Finder of a name. Raises: InputError for an unknown one."""
-    if name not in FINDERS:
-        raise unknown_name("find", name, FINDERS)
-    return FINDERS[name]
+@cache
+def finders() -> Mapping[str, Finder]:
+    """Finders by name: the package's own, then those of entry points.
+
+    Raises: InputError for an entry point that is no Finder, or takes another's name.
+    """
+    found = dict(FINDERS)
+    for finder in load_records(FINDERS_GROUP, Finder):
+        if finder.name in found:
+            raise InputError(f"{FINDERS_GROUP}: expected a name of its own, found {finder.name!r}")
+        found[finder.name] = finder
+    return MappingProxyType(found)
+
+
+def find_finder(finder: str | Finder) -> Finder:
+    """Finder of a name; a Finder is returned as it is. Raises: InputError for an unknown name."""
+    if isinstance(finder, Finder):
+        return finder
+    if finder not in finders():
+        raise unknown_name("find", finder, finders())
+    return finders()[finder]

@@ -16,7 +16,6 @@ AREA = Measure(
     column="area",
     title="area",
     unit="px²",
-    needs_range=False,
     min_points=1,
     evaluate=lambda rock: float(rock.mask.sum()),
 )

@@ -25,8 +25,6 @@ def _draw() -> "Figure":
 CONCAVITY = Measure(
     column="concavity",
     title="concavity",
-    unit="",
-    needs_range=False,
     min_points=3,
     evaluate=_read,
     evaluate_batch=lambda rocks: [_read(rock) for rock in rocks],

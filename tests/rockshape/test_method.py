@@ -79,8 +79,6 @@ def test_a_batch_is_measured_in_one_call_without_the_rocks_it_refuses() -> None:
     measure = Measure(
         column="area",
         title="area",
-        unit="px²",
-        needs_range=False,
         min_points=1,
         evaluate=lambda rock: float(rock.mask.sum()),
         evaluate_batch=areas,

@@ -1,4 +1,4 @@
-"""A method and a measure, each in one file outside the packages, found by their entry points."""
+"""A method, a measure and a finder, each in one file of its own, found by entry points."""
 
 import os
 import subprocess
@@ -14,6 +14,7 @@ import rockshape
 from rockshape.pipeline import measure
 from tests.plugins.bright_method import METHOD
 from tests.plugins.concavity_measure import CONCAVITY
+from tests.plugins.dark_finder import FINDER
 
 ROOT = Path(__file__).parents[2]
 y, x = np.mgrid[:60, :90]
@@ -34,13 +35,14 @@ def test_an_own_method_is_one_record_from_finder_to_table() -> None:
 
 @pytest.fixture
 def installed(tmp_path: Path) -> dict[str, str]:
-    """The environment of a process in which a distribution with both plug-ins is installed."""
+    """The environment of a process in which a distribution with all plug-ins is installed."""
     info = tmp_path / "rockshape_plugins-1.0.dist-info"
     info.mkdir()
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: rockshape-plugins\nVersion: 1.0\n")
     (info / "entry_points.txt").write_text(
         "[rockshape.methods]\nbright = tests.plugins.bright_method:METHOD\n"
         "[rockshape.measures]\nconcavity = tests.plugins.concavity_measure:CONCAVITY\n"
+        "[rockshape.finders]\ndark = tests.plugins.dark_finder:FINDER\n"
     )
     return {**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), str(ROOT)])}
 
@@ -80,6 +82,24 @@ def test_an_entry_point_that_is_no_record_is_one_line(
     assert done.stderr.strip() == (
         "rockshape: entry point 'bright' of rockshape.methods: expected a Method, found Measure"
     )
+
+
+def test_an_own_finder_is_one_record() -> None:
+    found = rockshape.measure(1 - IMAGE, method="robust", find=FINDER)
+    assert [rock.area_px for rock in found] == [DISC.sum()]
+
+
+def test_an_entry_point_adds_a_finder_to_the_command(
+    tmp_path: Path, installed: dict[str, str]
+) -> None:
+    picture, table = tmp_path / "i.png", tmp_path / "t.csv"
+    cv2.imwrite(str(picture), np.rint(255 * (1 - IMAGE)).astype(np.uint8))
+    done = run(["measure", str(picture), "--find", "dark", "--out", str(table)], installed)
+    assert done.returncode == 0, done.stderr
+    assert pd.read_csv(table)["area_px"].tolist() == [DISC.sum()]
+    missing = run(["measure", str(picture), "--find", "drak"], installed)
+    assert missing.returncode == 2
+    assert "did you mean 'dark'" in missing.stderr
 
 
 def test_a_measure_declares_what_it_is_held_to_beside_its_formula() -> None:

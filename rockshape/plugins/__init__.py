@@ -1,0 +1,1 @@
+"""Plug-ins: records that other distributions add by entry points."""

@@ -49,3 +49,15 @@ def test_a_docstring_without_its_sections_is_refused(tool, text: str) -> None:
     module = ModuleType("some_measure", text)
     with pytest.raises(ValueError, match="some_measure: expected the headings"):
         tool.sections_of(module)
+
+
+def test_every_measure_names_the_function_that_draws_its_picture(tool) -> None:
+    for module, readings in tool.measure_modules().items():
+        name = module.__name__.rpartition(".")[2]
+        for _, entry in readings:
+            assert entry.figure is not None, name
+            assert entry.figure.__module__ == module.__name__
+        assert (ROOT / "docs" / tool.FIGURES / f"{name}.png").is_file()
+        panels = readings[0][1].figure().axes
+        assert panels, name
+        assert all(panel.has_data() for panel in panels), name

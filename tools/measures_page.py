@@ -52,7 +52,7 @@ Half-axes are a ≥ b (≥ c), N is the number of points, and the equations' num
 
 def page() -> str:
     """The whole page."""
-    sections = [_section(module, readings) for module, readings in _modules().items()]
+    sections = [_section(module, readings) for module, readings in measure_modules().items()]
     return "\n".join([OPENING, _overview(), *sections])
 
 
@@ -78,7 +78,7 @@ def sections_of(module: ModuleType) -> dict[str, str]:
     return found
 
 
-def _modules() -> dict[ModuleType, list[tuple[str, Measure]]]:
+def measure_modules() -> dict[ModuleType, list[tuple[str, Measure]]]:
     """The measures' modules with the readings that each has, in the order of the robust table."""
     readings = [(name, entry) for name, method in methods().items() for entry in method.measures]
     both = (*methods()["robust"].measures, *methods()["paper"].measures)
@@ -95,7 +95,7 @@ def _overview() -> str:
         "| measure | `paper` | `robust` | needs range |",
         "| --- | --- | --- | --- |",
     ]
-    for readings in _modules().values():
+    for readings in measure_modules().values():
         columns = {name: f"`{entry.column}`" for name, entry in readings}
         entry = readings[0][1]
         needs = "yes" if entry.needs_range else ""
@@ -117,7 +117,7 @@ def _growth() -> str:
         "| --- | --- | --- | --- |",
     ]
     seen = set()
-    for readings in _modules().values():
+    for readings in measure_modules().values():
         for _, entry in readings:
             pixels, metres = POWERS[entry.unit]
             if (pixels, metres) != ("none", "none") and entry.column not in seen:
@@ -131,7 +131,8 @@ def _section(module: ModuleType, readings: list[tuple[str, Measure]]) -> str:
     name = module.__name__.rpartition(".")[2]
     title = _title(readings)
     lines = [f"## {title}", "", _sentence(sections[""].partition(": ")[2]), ""]
-    lines += [f"![{title}, drawn]({FIGURES}/{name}.png)", ""]
+    if any(entry.figure is not None for _, entry in readings):
+        lines += [f"![{title}, drawn]({FIGURES}/{name}.png)", ""]
     lines += ["| method | column | unit | the paper's name | fewest points |", "| --- " * 5 + "|"]
     for method, entry in readings:
         points = "range" if entry.needs_range else "outline"

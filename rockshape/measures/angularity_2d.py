@@ -29,6 +29,7 @@ Source: Fox et al. (2002), equations 6 and 7 and figure 3.
 """
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +37,10 @@ from numpy.typing import NDArray
 from rockshape.measures.measure import Measure
 from rockshape.measures.reading import Reason
 from rockshape.rock.view import RockView
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 
 ALPHA = 2
 BETA = 9
@@ -46,23 +51,36 @@ def angularity_2d_deg(
 ) -> float:
     """Standard deviation over the outline of each point's flattest inscribed angle, in degrees.
 
-    At each point i the triangles with corners h and j, alpha < i - h < beta and
-    alpha < j - i < beta, have the angle hij = arccos((a² + b² - c²)/(2ab)), with a, b the sides
-    that meet at i; rho_i is the largest of them, and the measure
+    The angles are those of `flattest_angles_rad`; the measure is
     sqrt(sum (rho_i - mean rho)² / (N - 1)). outline_px is (N, 2) and closed. With alpha = 2 and
     beta = 9 the offsets are 3 to 8 on each side: 36 triangles a point.
 
     Rises with angularity. On pixels a circle does not score 0 but about 12, 7.2, 3.7 and 2.4
-    degrees at a radius of 6, 20, 50 and 100 pixels, so the measure falls with size.
-    The angle at i is what the chord that ends there and the one that starts there lack of a
-    straight line, so one arccos of the greatest product of their directions does for all 36.
-    A triangle with a side of no length is left out. NaN for fewer than 2 beta - 1 points, where the
-    corners would meet behind the point.
+    degrees at a radius of 6, 20, 50 and 100 pixels, so the measure falls with size. NaN for fewer
+    than 2 beta - 1 points, where the corners would meet behind the point.
     Source: Fox et al. (2002), equations 6 and 7 and figure 3.
     """
-    count = len(outline_px)
-    if count < 2 * beta - 1:
+    if len(outline_px) < 2 * beta - 1:
         return float("nan")
+    flattest = flattest_angles_rad(outline_px, alpha=alpha, beta=beta)
+    return float(np.degrees(flattest.std(ddof=1)))
+
+
+def flattest_angles_rad(
+    outline_px: NDArray[np.float64], *, alpha: int = ALPHA, beta: int = BETA
+) -> NDArray[np.float64]:
+    """Flattest inscribed angle at each point of a closed outline (N, 2), (N,).
+
+    At each point i the triangles with corners h and j, alpha < i - h < beta and
+    alpha < j - i < beta, have the angle hij = arccos((a² + b² - c²)/(2ab)), with a, b the sides
+    that meet at i; rho_i is the largest of them. N must be at least 2 beta - 1.
+
+    The angle at i is pi less the turn from the chord that ends there to the one that starts there,
+    so one arccos of the greatest product of their directions does for all triangles.
+    A triangle with a side of no length is left out.
+    Source: Fox et al. (2002), equation 6.
+    """
+    count = len(outline_px)
     chords = _unit_chords(outline_px, alpha + 1, beta - 1)
     starting = chords[:, :, beta - 1 :]
     best = np.full(starting.shape[1:], -1.0)
@@ -72,8 +90,7 @@ def angularity_2d_deg(
         ending = chords[:, row, beta - 1 - offset : beta - 1 - offset + count]
         np.multiply(starting, ending[:, None], out=product)
         np.fmax(best, np.add(product[0], product[1], out=product[0]), out=best)
-    flattest = np.pi - np.arccos(np.minimum(best.max(axis=0), 1.0))
-    return float(np.degrees(flattest.std(ddof=1)))
+    return np.asarray(np.pi - np.arccos(np.minimum(best.max(axis=0), 1.0)))
 
 
 def _unit_chords(outline: NDArray[np.float64], nearest: int, farthest: int) -> NDArray[np.float64]:
@@ -103,6 +120,41 @@ def _evaluate(rock: RockView) -> float:
     return angularity_2d_deg(rock.outline_px)
 
 
+def _draw() -> "Figure":
+    """Flattest angles along an angular and a round outline, beside two points' triangles."""
+    from matplotlib.figure import Figure  # noqa: PLC0415 - half a second
+    from matplotlib.patches import Polygon  # noqa: PLC0415
+
+    from rockshape.measures import drawing  # noqa: PLC0415
+
+    figure = Figure(figsize=(6.4, 2.5), layout="constrained")
+    left, right = figure.subplots(1, 2, width_ratios=(1, 1.6))
+    left.set_aspect("equal")
+    left.axis("off")
+    angular, rounded = drawing.BY_ROUNDNESS[0], drawing.BY_ROUNDNESS[3]
+    outline = angular.traced_px(scale=0.3)
+    drawing.draw_rock(left, outline)
+    left.plot(*outline.T, "s", color=drawing.INK, markersize=1.5)
+    flattest = flattest_angles_rad(outline)
+    for index, colour in ((flattest.argmin(), drawing.SECOND), (flattest.argmax(), drawing.FIRST)):
+        for reach in (3, 5, 8):
+            triangle = outline[[index - reach, index, (index + reach) % len(outline)]]
+            left.add_patch(Polygon(triangle, fill=False, edgecolor=colour, linewidth=1.2))
+        left.plot(*outline[index], "o", color=colour, markersize=4)
+    for sample, colour, name in (
+        (angular, drawing.SECOND, "angular"),
+        (rounded, drawing.FIRST, "round"),
+    ):
+        angles = np.degrees(flattest_angles_rad(sample.traced_px()))
+        label = f"{name}: spread {angles.std(ddof=1):.1f}°"
+        along = np.linspace(0, 1, len(angles))
+        right.plot(along, angles, color=colour, linewidth=1, label=label)
+    right.set(xlabel="along the outline", ylabel="flattest angle, °", ylim=(100, 182))
+    right.legend(frameon=False, fontsize=8, loc="lower right", ncols=2)
+    right.spines[["top", "right"]].set_visible(False)
+    return figure
+
+
 PAPER = Measure(
     column="angularity_2d_deg",
     title="2-D angularity",
@@ -113,6 +165,7 @@ PAPER = Measure(
     expected_trait="angularity",
     view_truth="outline_angularity",
     value_range=(0.0, 180.0),
+    figure=_draw,
 )
 ROBUST = replace(
     PAPER,

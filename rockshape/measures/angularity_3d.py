@@ -28,6 +28,7 @@ Source: Fox et al. (2002), equations 12 to 17.
 """
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,7 +36,11 @@ from numpy.typing import NDArray
 from rockshape.measures.measure import Measure
 from rockshape.measures.reading import Reason
 from rockshape.rock.view import RockView
-from rockshape.surface import MIN_POINTS, ResidualCurvature, Surface
+from rockshape.surface import MIN_POINTS, ResidualCurvature, Surface, fit_surface, view_patch
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 
 MIN_FACING = 200  # below this the value moves by more than 2 % with the grid
 MAX_NOISE = 1.0  # bend by noise alone: the range from worn to sharp
@@ -92,6 +97,46 @@ def _evaluate_relief(rock: RockView) -> float | Reason:
     return angularity_3d(relief)
 
 
+def _draw() -> "Figure":
+    """Height through the middle of a smooth and a rough cap, and its second derivative."""
+    from matplotlib.figure import Figure  # noqa: PLC0415 - half a second
+
+    from rockshape.measures import drawing  # noqa: PLC0415
+
+    figure = Figure(figsize=(6.4, 2.8), layout="constrained")
+    panels = figure.subplots(2, 2, sharex=True)
+    for column, (name, amplitude_m) in enumerate((("smooth", 0.0), ("rough", 0.002))):
+        patch = view_patch(_cap(amplitude_m))
+        surface = None if patch is None else fit_surface(patch)
+        if patch is None or surface is None:
+            raise ValueError("points: expected a patch that determines a surface")
+        middle = np.abs(patch.w_m) < 0.0008
+        order = np.argsort(patch.u_m[middle])
+        u_mm = 1000 * patch.u_m[middle][order]
+        bend_per_m = (surface.second_uu_per_m + surface.second_ww_per_m) / 2
+        height, bend = panels[:, column]
+        height.plot(u_mm, 1000 * patch.height_m[middle][order], color=drawing.INK)
+        bend.fill_between(u_mm, bend_per_m[middle][order], color=drawing.SECOND, alpha=0.6)
+        bend.axhline(0, color=drawing.QUIET, linewidth=0.8)
+        bend.set(ylim=(-40, 40), xlabel="across, mm")
+        value = angularity_3d_per_m(surface)
+        height.set_title(f"{name}: mean |(Q$_{{uu}}$ + Q$_{{ww}}$)/2| = {value:.1f}", fontsize=9)
+    panels[0, 0].set_ylabel("height, mm")
+    panels[1, 0].set_ylabel("1/m")
+    for panel in panels.flat:
+        panel.spines[["top", "right"]].set_visible(False)
+    return figure
+
+
+def _cap(amplitude_m: float) -> NDArray[np.float64]:
+    """Points (n, 3) of a cap of a sphere of 0.2 m with waves on it, seen from 3 m."""
+    x, y = np.mgrid[-0.1:0.1:141j, -0.1:0.1:141j]
+    inside = np.hypot(x, y) < 0.1
+    height = np.sqrt(0.2**2 - x**2 - y**2)
+    height += amplitude_m * np.sin(2 * np.pi * x / 0.06) * np.cos(2 * np.pi * y / 0.07)
+    return np.asarray(np.stack([x, y, 3.0 - height], axis=-1)[inside])
+
+
 PAPER = Measure(
     column="angularity_3d_per_m",
     title="3-D angularity",
@@ -101,6 +146,7 @@ PAPER = Measure(
     min_points=MIN_POINTS,
     evaluate=_evaluate,
     expected_trait="angularity",
+    figure=_draw,
 )
 ROBUST = replace(
     PAPER,

@@ -26,11 +26,17 @@ and Kanazawa (2016).
 """
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 from rockshape.ellipse.direct import MIN_POINTS, Ellipse
 from rockshape.measures.measure import Measure
 from rockshape.measures.reading import Reason
 from rockshape.rock.view import RockView
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 def axis_ratio(ellipse: Ellipse) -> float:
@@ -54,6 +60,29 @@ def _evaluate(rock: RockView) -> float:
     return float("nan") if rock.ellipse is None else axis_ratio(rock.ellipse)
 
 
+def _draw() -> "Figure":
+    """Ellipse of three outlines, and its half-axes."""
+    from rockshape.measures import drawing  # noqa: PLC0415 - brings Matplotlib
+
+    figure, row = drawing.panels(3)
+    for panel, sample in zip(row, drawing.BY_FORM, strict=True):
+        outline = sample.traced_px()
+        ellipse = drawing.fitted(outline)
+        drawing.draw_rock(panel, outline)
+        drawing.draw_ellipse(panel, ellipse)
+        ring = ellipse.ring(4)
+        centre = ring.mean(axis=0)
+        for name, end, aside, colour in (
+            ("a", ring[0], (3.0, 11.0), drawing.FIRST),
+            ("b", ring[1], (11.0, 3.0), drawing.SECOND),
+        ):
+            panel.plot(*np.array([centre, end]).T, color=colour, linewidth=1.6)
+            x, y = (centre + end) / 2 + aside
+            panel.text(x, y, name, color=colour, weight="bold", ha="center", va="center")
+        panel.set_title(f"b/a = {ellipse.axis_ratio:.2f}", fontsize=9)
+    return figure
+
+
 PAPER = Measure(
     column="axis_ratio",
     title="axis ratio",
@@ -62,7 +91,8 @@ PAPER = Measure(
     evaluate=_evaluate,
     expected_trait="form",
     view_truth="outline_axis_ratio",
-    equals=("axis_ratio", "outline_axis_ratio"),
+    equals="outline_axis_ratio",
     value_range=(0.0, 1.0),
+    figure=_draw,
 )
 ROBUST = replace(PAPER, evaluate=_read_robust)

@@ -28,6 +28,7 @@ Source: Fox et al. (2002), section 2, Ellipse Fitting, and figure 2.
 """
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +37,9 @@ from rockshape.ellipse.direct import MIN_POINTS, Ellipse, fit_ellipse
 from rockshape.measures.measure import Measure
 from rockshape.measures.reading import Reason
 from rockshape.rock.view import RockView
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 def ellipse_error_px2(
@@ -78,6 +82,26 @@ def _evaluate(rock: RockView) -> float:
     )
 
 
+def _draw() -> "Figure":
+    """Distances of an angular and a round outline from their ellipse along rays from its centre."""
+    from rockshape.measures import drawing  # noqa: PLC0415 - brings Matplotlib
+
+    figure, row = drawing.panels(2)
+    samples = drawing.BY_ROUNDNESS[0], drawing.BY_ROUNDNESS[3]
+    for panel, sample, title in zip(row, samples, ("angular", "round"), strict=True):
+        outline = sample.traced_px()
+        ellipse = drawing.fitted(outline)
+        drawing.draw_rock(panel, outline)
+        drawing.draw_ellipse(panel, ellipse)
+        drawing.draw_radial_distances(panel, ellipse, outline[::9], linewidth=1.6)
+        mean_px2 = ellipse_error_px2(ellipse, outline)
+        share = np.sqrt(mean_px2 / (ellipse.major * ellipse.minor))
+        panel.set_title(
+            f"{title}\nmean square {mean_px2:.1f} px², RMS/√(ab) {share:.3f}", fontsize=9
+        )
+    return figure
+
+
 PAPER = Measure(
     column="ellipse_error_px2",
     title="ellipse error",
@@ -87,5 +111,6 @@ PAPER = Measure(
     evaluate=_evaluate,
     expected_trait="angularity",
     view_truth="outline_angularity",
+    figure=_draw,
 )
 ROBUST = replace(PAPER, column="ellipse_error", unit="", evaluate=_read_robust, whole=True)

@@ -23,6 +23,7 @@ Source: Fox et al. (2002), section 2, Ellipsoid Fitting, after equation 11.
 """
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +31,12 @@ from numpy.typing import NDArray
 from rockshape.ellipsoid import MIN_POINTS, Ellipsoid, EllipsoidFit
 from rockshape.measures.measure import Measure
 from rockshape.measures.reading import Reason
+from rockshape.outline.resample import even_outline
 from rockshape.rock.view import RockView
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 
 MAX_NOISE = 0.06  # of the mean half-axis, which is the whole range of the measure
 
@@ -83,6 +89,35 @@ def _evaluate(rock: RockView) -> float:
     return float("nan") if rock.ellipsoid is None else ellipsoid_error_m2(rock.ellipsoid)
 
 
+def _draw() -> "Figure":
+    """Section of a rock, points seen from one side, and their distances from the ellipsoid."""
+    from matplotlib.patches import Polygon  # noqa: PLC0415 - half a second
+
+    from rockshape.measures import drawing  # noqa: PLC0415
+
+    figure, (panel,) = drawing.panels(1)
+    section = even_outline(drawing.BY_ROUNDNESS[1].outline_px() / 1000, 180)
+    section -= section.mean(axis=0)
+    bearing = np.arctan2(section[:, 1], section[:, 0])
+    visible = section[np.abs(np.abs(bearing) - np.pi) < 1.5][::2]
+    panel.add_patch(
+        Polygon(section, facecolor=drawing.ROCK, edgecolor=drawing.QUIET, linestyle=":")
+    )
+    ellipse = drawing.fitted(section)
+    drawing.draw_ellipse(panel, ellipse)
+    drawing.draw_radial_distances(panel, ellipse, visible, linewidth=1.4)
+    panel.plot(*visible.T, "o", color=drawing.INK, markersize=1.6)
+    left = float(section[:, 0].min())
+    arrow = {"arrowstyle": "->", "color": drawing.QUIET}
+    for side in (-0.05, 0.0, 0.05):
+        panel.annotate("", (left - 0.006, side), (left - 0.06, side), arrowprops=arrow)
+    panel.set_title(
+        "points seen from the left, and how far they lie from the ellipsoid", fontsize=9
+    )
+    drawing.close_margins(panel)
+    return figure
+
+
 PAPER = Measure(
     column="ellipsoid_error_m2",
     title="ellipsoid error",
@@ -92,6 +127,7 @@ PAPER = Measure(
     min_points=MIN_POINTS,
     evaluate=_evaluate,
     expected_trait="angularity",
+    figure=_draw,
 )
 ROBUST = replace(
     PAPER, column="ellipsoid_error", unit="", evaluate=_evaluate_held, constrained=True

@@ -24,7 +24,8 @@ class Measure:
     given, it is called in place of `evaluate`.
 
     `expected_trait`, `view_truth` and `equals` declare how a measure is judged against rocks of
-    known shape; the truths are named as in the records of `validation` without their `truth_`.
+    known shape. A truth is named as in the records of `validation` without their `truth_`; those of
+    an outline, a drawn shape's too, begin with `outline_`, the others are the solid's.
     """
 
     column: str
@@ -39,7 +40,7 @@ class Measure:
     constrained: bool = False  # its ellipsoid also touches the silhouette and rests on the ground
     expected_trait: Trait | None = None  # the trait that it rises with; None: not judged
     view_truth: str = ""  # truth of a view's outline that its values rank, `outline_roundness` say
-    equals: tuple[str, ...] = ()  # truths that are the same quantity: the difference is an error
+    equals: str = ""  # truth that is the same quantity, so that the difference is an error
     value_range: tuple[float, float] = (0.0, float("inf"))
     figure: "Callable[[], Figure] | None" = None  # draws its picture in docs/measures.md
 

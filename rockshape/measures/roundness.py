@@ -23,14 +23,44 @@ with an outline of fewer than 40 px.
 Source: Wadell (1932), Volume, shape, and roundness of rock particles.
 """
 
+from typing import TYPE_CHECKING
+
 from rockshape.measures.measure import Measure
 from rockshape.measures.reading import Reason
-from rockshape.outline.roundness import MIN_POINTS, wadell_roundness
+from rockshape.outline.roundness import MIN_POINTS, inscribed_circle, wadell_roundness
 from rockshape.rock.view import RockView
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 def _read_robust(rock: RockView) -> float | Reason:
     return wadell_roundness(rock.smooth_outline_px) if rock.resolved else Reason.TOO_SMALL
+
+
+def _draw() -> "Figure":
+    """Largest inscribed circle and the circles of the corners."""
+    from matplotlib.patches import Circle, Polygon  # noqa: PLC0415 - half a second
+
+    from rockshape.measures import drawing  # noqa: PLC0415
+
+    figure, row = drawing.panels(3)
+    for panel, sample in zip(row, drawing.BY_ROUNDNESS[:3], strict=True):
+        outline = sample.outline_px()
+        panel.add_patch(
+            Polygon(outline, facecolor=drawing.ROCK, edgecolor=drawing.INK, linewidth=1.2)
+        )
+        largest = (*inscribed_circle(outline), drawing.FIRST)
+        corners = [
+            (corner, sample.radius_px, drawing.SECOND)
+            for corner in zip(sample.x_px, sample.y_px, strict=True)
+        ]
+        for centre, radius, colour in (*corners, largest):
+            circle = Circle(centre, radius, fill=False, edgecolor=colour, linewidth=1.4)
+            panel.add_patch(circle)
+        panel.set_title(f"mean r / R = {sample.roundness:.2f}", fontsize=9)
+        drawing.close_margins(panel)
+    return figure
 
 
 ROBUST = Measure(
@@ -41,6 +71,7 @@ ROBUST = Measure(
     whole=True,
     expected_trait="roundness",
     view_truth="outline_roundness",
-    equals=("outline_roundness", "roundness"),
+    equals="outline_roundness",
     value_range=(0.0, 1.0),
+    figure=_draw,
 )

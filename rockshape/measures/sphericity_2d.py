@@ -25,13 +25,18 @@ Source: Fox et al. (2002), section 3, Sphericity Test; Feret (1930).
 """
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.measures.measure import Measure
 from rockshape.measures.reading import Reason
+from rockshape.outline.extent import feret_diameters
 from rockshape.rock.view import RockView
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 def sphericity_2d(outline_px: NDArray[np.float64]) -> float:
@@ -60,6 +65,41 @@ def _evaluate(rock: RockView) -> float:
     return sphericity_2d(rock.outline_px)
 
 
+def _draw() -> "Figure":
+    """Upright box and Feret diameters of a rock, and of the same rock turned."""
+    from rockshape.measures import drawing  # noqa: PLC0415 - brings Matplotlib
+
+    figure, row = drawing.panels(2)
+    for panel, turn_rad in zip(row, (0.0, np.pi / 4), strict=True):
+        outline = drawing.BY_FORM[1].traced_px(turn_rad=turn_rad)
+        drawing.draw_rock(panel, outline)
+        low, high = outline.min(axis=0), outline.max(axis=0)
+        box = np.array([low, (high[0], low[1]), high, (low[0], high[1]), low])
+        panel.plot(*box.T, color=drawing.SECOND, linewidth=1.4, linestyle="--")
+        arrow = {"arrowstyle": "|-|", "color": drawing.FIRST, "linewidth": 1.4, "shrinkA": 0}
+        for start, end in _feret_ends(outline):
+            panel.annotate("", start, end, arrowprops=arrow | {"shrinkB": 0, "mutation_scale": 4})
+        upright = (high - low).min() / (high - low).max()
+        least, greatest = feret_diameters(outline)
+        panel.set_title(f"upright box {upright:.2f}, callipers {least / greatest:.2f}", fontsize=9)
+        drawing.close_margins(panel)
+    return figure
+
+
+def _feret_ends(outline: NDArray[np.float64]) -> list[tuple[tuple[float, float], ...]]:
+    """Ends of the least and the greatest diameter in whole degrees, through the box's middle."""
+    turns = np.radians(np.arange(180))
+    ways = np.column_stack([np.cos(turns), np.sin(turns)])
+    reach = outline @ ways.T
+    middle = (outline.min(axis=0) + outline.max(axis=0)) / 2
+    found = []
+    for place in (np.ptp(reach, axis=0).argmin(), np.ptp(reach, axis=0).argmax()):
+        way = ways[place]
+        ends = (middle + (end(reach[:, place]) - middle @ way) * way for end in (np.min, np.max))
+        found.append(tuple((float(x), float(y)) for x, y in ends))
+    return found
+
+
 PAPER = Measure(
     column="sphericity_2d",
     title="2-D sphericity",
@@ -68,7 +108,8 @@ PAPER = Measure(
     evaluate=_evaluate,
     expected_trait="form",
     view_truth="outline_axis_ratio",
-    equals=("rectangle_ratio",),
+    equals="outline_rectangle_ratio",
     value_range=(0.0, 1.0),
+    figure=_draw,
 )
 ROBUST = replace(PAPER, evaluate=_read_robust, whole=True)

@@ -23,6 +23,7 @@ Source: Sneed and Folk (1958); Fox et al. (2002), equation 2, which names it bes
 """
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +31,9 @@ from numpy.typing import NDArray
 from rockshape.ellipsoid import MIN_POINTS
 from rockshape.measures.measure import Measure
 from rockshape.rock.view import RockView
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 def sphericity_3d(half_axes_m: NDArray[np.float64]) -> float:
@@ -53,6 +57,46 @@ def _evaluate_held(rock: RockView) -> float:
     return sphericity_3d(rock.held_ellipsoid.half_axes_m)
 
 
+def _draw() -> "Figure":
+    """Four ellipsoids and their sphericity."""
+    from rockshape.measures import drawing  # noqa: PLC0415 - brings Matplotlib
+
+    figure, row = drawing.panels(4)
+    forms = {
+        "sphere": (1.0, 1.0, 1.0),
+        "blade": (1.0, 0.7, 0.4),
+        "disc": (1.0, 1.0, 0.4),
+        "rod": (1.0, 0.4, 0.4),
+    }
+    for panel, (name, half_axes) in zip(row, forms.items(), strict=True):
+        panel.imshow(_shaded(np.array(half_axes)), cmap="gray", vmin=0, vmax=1)
+        axes = " : ".join(f"{axis:g}" for axis in half_axes)
+        value = sphericity_3d(np.array(half_axes))
+        panel.set_title(f"{name} {axes}\n(c²/ab)$^{{1/3}}$ = {value:.2f}", fontsize=9)
+    return figure
+
+
+def _shaded(half_axes: NDArray[np.float64], *, size: int = 150) -> NDArray[np.float64]:
+    """Picture (size, size) of an ellipsoid from above its end, under one light; 1 off it."""
+    tilt, turn = 0.5, 0.6
+    about_up = np.array(
+        [[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], [0, 0, 1]]
+    )
+    down = np.array([[1, 0, 0], [0, np.sin(tilt), -np.cos(tilt)], [0, np.cos(tilt), np.sin(tilt)]])
+    own = about_up.T @ down.T  # from x right, y up, z to the viewer to the ellipsoid's own axes
+    y, x = np.mgrid[1.05 : -1.05 : size * 1j, -1.05 : 1.05 : size * 1j]
+    origin = np.stack([x, y, np.zeros_like(x)], axis=-1) @ own.T / half_axes
+    direction = own @ np.array([0.0, 0.0, 1.0]) / half_axes
+    b, c = origin @ direction, (origin**2).sum(-1) - 1
+    root = b**2 - direction @ direction * c
+    hit = root >= 0
+    depth = (-b + np.sqrt(np.where(hit, root, 0))) / (direction @ direction)
+    normal = ((origin + depth[..., None] * direction) / half_axes) @ own
+    normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
+    light = np.array([-0.5, 0.6, 0.62])
+    return np.where(hit, 0.25 + 0.65 * np.clip(normal @ light, 0, 1), 1.0)
+
+
 PAPER = Measure(
     column="sphericity_3d",
     title="3-D sphericity",
@@ -61,7 +105,8 @@ PAPER = Measure(
     min_points=MIN_POINTS,
     evaluate=_evaluate,
     expected_trait="form",
-    equals=("maximum_projection_sphericity",),
+    equals="maximum_projection_sphericity",
     value_range=(0.0, 1.0),
+    figure=_draw,
 )
 ROBUST = replace(PAPER, evaluate=_evaluate_held, constrained=True)

@@ -123,19 +123,25 @@ def _corners(curvature: NDArray[np.float64], prominence: float) -> list[tuple[in
 
 
 def inscribed_radius(outline: NDArray[np.float64]) -> float:
-    """Radius of the largest circle inside a closed outline (n, 2), in its unit.
+    """Radius of the largest circle inside a closed outline (n, 2); 0 where there is no inside."""
+    return inscribed_circle(outline)[1]
+
+
+def inscribed_circle(outline: NDArray[np.float64]) -> tuple[tuple[float, float], float]:
+    """Centre and radius of the largest circle inside a closed outline (n, 2), in its unit.
 
     Of 256 points evenly along it, every triangle of their Delaunay triangulation has a
     circumscribed circle with no point inside; the largest whose centre lies inside the outline
-    is the one. In single precision: true to 1e-7. 0 for an outline without inside.
+    is the one. In single precision: true to 1e-7. Of radius 0 for an outline without inside.
     """
     points = even_outline(outline, _CONTACTS)
     if len(points) == 0:
-        return 0.0
+        return (0.0, 0.0), 0.0
     scale = float(np.ptp(points, axis=0).max())
-    points = (points - points.mean(axis=0)) / scale
+    middle = points.mean(axis=0)
+    points = (points - middle) / scale
     if abs(signed_area(points)) < _NO_AREA:
-        return 0.0
+        return (0.0, 0.0), 0.0
     first, second, third = np.moveaxis(_triangles(points), 1, 0)
     one, two = second - first, third - first
     cross = 2 * (one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0])
@@ -149,8 +155,9 @@ def inscribed_radius(outline: NDArray[np.float64]) -> float:
     for index in np.argsort(-np.where(radius <= 1, radius, 0.0)):
         centre = (float(first[index, 0] + x[index]), float(first[index, 1] + y[index]))
         if radius[index] <= 1 and cv2.pointPolygonTest(polygon, centre, measureDist=False) > 0:
-            return scale * float(radius[index])
-    return 0.0
+            x_own, y_own = (middle + scale * np.array(centre)).tolist()
+            return (x_own, y_own), scale * float(radius[index])
+    return (0.0, 0.0), 0.0
 
 
 def _triangles(points: NDArray[np.float64]) -> NDArray[np.float64]:

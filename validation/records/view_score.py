@@ -135,4 +135,4 @@ def _truth_of(
     if not name or f"truth_{source}" not in rocks:
         return None
     true = rocks[f"truth_{source}"].to_numpy(np.float64)
-    return name, 1.0 - true if name in _REVERSED else true, name in measure.equals
+    return name, 1.0 - true if name in _REVERSED else true, name == measure.equals

@@ -20,6 +20,7 @@ _TRAITS: dict[ShapeSeries, tuple[Trait, ...]] = {
     "roundness": ("angularity", "roundness"),
     "sphericity": ("form",),
 }
+_OUTLINE = "outline_"  # names of an outline's truths where a solid has its own
 _FORMS = ("axis_ratio", "rectangle_ratio")  # truths of a drawn shape's form, the usual one first
 
 
@@ -83,17 +84,17 @@ _ERROR = Statistic("error", "RMS difference from the true value", "1", "shapes",
 
 def _claim(experiment: ShapesExperiment, series: str, column: JudgedColumn) -> Claim:
     """Claim on a column: a drawn shape's truths are those of its outline."""
-    equals = () if column.measure is None else column.measure.equals
+    equals = "" if column.measure is None else column.measure.equals
     truth: str = column.trait
     if column.trait == "form":
-        truth = next((form for form in _FORMS if form in equals), _FORMS[0])
+        truth = next((form for form in _FORMS if _OUTLINE + form == equals), _FORMS[0])
     return Claim(
         experiment.name,
         series,
         column.method,
         column.name,
         TRUTH + truth,
-        same_quantity=truth in equals,
+        same_quantity=_OUTLINE + truth == equals,
     )
 
 

@@ -97,15 +97,13 @@ def _of_view(statistic: Statistic) -> Statistic:
 def _of_rock(experiment: MultiviewExperiment, series: str, column: JudgedColumn) -> Claim:
     """Claim held to the solid's own truth, which no measure of an outline can equal."""
     truth = _FORM if column.trait == "form" else column.trait
-    measure = column.measure
-    equals = measure.equals if measure is not None and measure.needs_range else ()
     return Claim(
         experiment.name,
         series,
         column.method,
         column.name,
         TRUTH + truth,
-        same_quantity=truth in equals,
+        same_quantity=column.measure is not None and truth == column.measure.equals,
     )
 
 
@@ -133,7 +131,7 @@ def view_claims(
             column.name,
             TRUTH + column.measure.view_truth,
             per_view=True,
-            same_quantity=column.measure.view_truth in column.measure.equals,
+            same_quantity=column.measure.view_truth == column.measure.equals,
         )
         for series in experiment.series
         for column in columns_of(experiment, measures)

@@ -1,5 +1,7 @@
 """Measurement of arrays: from pixels and range to the measures of each rock in one call."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
@@ -8,7 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from rockshape.camera.camera import Camera, PinholeLike, as_camera
 from rockshape.errors import InputError
-from rockshape.io import read_camera, read_labels, read_pixels, read_points
+from rockshape.io import ImageContent, read_camera, read_labels, read_picture, read_points
+from rockshape.io.decoding.orientation import UPRIGHT
+from rockshape.io.files import MAX_PIXELS
 from rockshape.io.pixels import to_grey
 from rockshape.measurement import Measurement
 from rockshape.method import Method
@@ -17,6 +21,7 @@ from rockshape.pipeline import measure as measure_observation
 from rockshape.point_grid.points import PointReading, RangeKind, points_from
 from rockshape.point_grid.units import RangeScale
 from rockshape.rock.instances import Instances
+from rockshape.rock.pieces import Pieces
 from rockshape.segmentation.finders import Finder
 
 
@@ -99,28 +104,54 @@ def read(
     range_unit: str | None = None,
     camera: Path | str | None = None,
     labels: Path | str | None = None,
+    pieces: Pieces = "split",
+    max_pixels: int = MAX_PIXELS,
 ) -> Observation:
     """Observation of files, as `rockshape measure` reads them; `measure` takes it.
 
     The formats are those of `rockshape formats`. range_kind tells what the range file holds, if not
     what its format and shape do; range_unit is the unit of its numbers, `mm` or `0.25mm` say. With
-    labels, `measure` measures those rocks.
+    labels, `measure` measures those rocks; pieces tells what becomes of a mask without ids. An
+    image of more than max_pixels is refused.
     Raises: InputError, which names the file, for what cannot be read or does not fit the image.
     """
-    pixels = read_pixels(image)
-    known = None if camera is None else read_camera(camera, shape=pixels.shape)
-    seen = None
-    if range is not None:
-        seen = read_points(
-            range, shape=pixels.shape, camera=known, kind=range_kind, unit=range_unit
-        )
-    instances = None
-    if labels is not None:
-        instances = read_labels(labels, shape=pixels.shape, image_name=Path(image).name)
-    observation = observe(pixels, camera=known, labels=instances)
-    if seen is None:
-        return observation
-    return replace(observation, points_m=seen.points_m, left_out=seen.left_out)
+    picture = read_picture(image, max_pixels=max_pixels)
+    shape = picture.pixels.shape
+    seen = instances = None
+    with _telling_of_turning(picture):
+        known = None if camera is None else read_camera(camera, shape=shape)
+        if range is not None:
+            seen = read_points(range, shape=shape, camera=known, kind=range_kind, unit=range_unit)
+        if labels is not None:
+            instances = read_labels(labels, shape=shape, image_name=Path(image).name, pieces=pieces)
+        observation = observe(picture.pixels, camera=known, labels=instances)
+    return replace(
+        observation,
+        points_m=None if seen is None else seen.points_m,
+        left_out={} if seen is None else seen.left_out,
+        pixel_size_m=picture.pixel_size_m,
+        notes=(*_turning(picture), *(() if instances is None else instances.notes)),
+    )
+
+
+@contextmanager
+def _telling_of_turning(picture: ImageContent) -> Iterator[None]:
+    """Add to a refusal of what belongs to an image how the image has been turned."""
+    try:
+        yield
+    except InputError as error:
+        if picture.orientation == UPRIGHT:
+            raise
+        raise InputError("; ".join([str(error), *_turning(picture)])) from None
+
+
+def _turning(picture: ImageContent) -> tuple[str, ...]:
+    if picture.orientation == UPRIGHT:
+        return ()
+    return (
+        f"the image was turned by its EXIF orientation {picture.orientation}, "
+        f"and camera, range and labels must be of the turned image",
+    )
 
 
 def _instances(labels: ArrayLike | Instances) -> Instances:

@@ -46,6 +46,8 @@ class Observation:
     colour: NDArray[np.generic] | None = None  # (rows, cols, channels), as given; None: grey alone
     instances: Instances | None = None  # rocks outlined already; None: they are to be found
     left_out: Mapping[str, int] = field(default_factory=dict)  # pixels without range, by reason
+    pixel_size_m: float | None = None  # side of a pixel on what is seen, where the image tells it
+    notes: tuple[str, ...] = ()  # what reading has changed or left out, each in a few words
 
     def __post_init__(self) -> None:
         shape = self.image.shape

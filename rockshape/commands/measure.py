@@ -57,7 +57,26 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--labels",
         type=Path,
         metavar="FILE",
-        help="rocks segmented already: label image (0 is the ground) or COCO annotations",
+        help="rocks segmented already: label image (0 is the ground), COCO annotations, ...",
+    )
+    inputs.add_argument(
+        "--instances",
+        type=Path,
+        metavar="FOLDER",
+        help="the same as a folder of masks, one a rock, or a stack of masks in one file",
+    )
+    inputs.add_argument(
+        "--pieces",
+        choices=("split", "keep"),
+        default="split",
+        help="labels that are one mask without ids: a rock for each piece (default), or keep one",
+    )
+    inputs.add_argument(
+        "--max-pixels",
+        type=int,
+        default=2**27,
+        metavar="N",
+        help="refuse an image of more pixels before it is decoded (default: 134 million)",
     )
     how = parser.add_argument_group("measuring")
     how.add_argument(

@@ -16,6 +16,7 @@ from rockshape.method import find_method
 from rockshape.pipeline import measure
 from rockshape.point_grid.points import RangeKind
 from rockshape.report.overlay import overlay
+from rockshape.rock.pieces import Pieces
 
 PAGES = (".html", ".htm")
 
@@ -30,6 +31,9 @@ class MeasureOptions:
     range_unit: str | None
     camera: Path | None
     labels: Path | None
+    instances: Path | None
+    pieces: Pieces
+    max_pixels: int
     find: str | None
     method: str
     descriptors: bool
@@ -54,7 +58,9 @@ def measure_image(options: MeasureOptions) -> None:
         range_kind=options.range_kind,
         range_unit=options.range_unit,
         camera=options.camera,
-        labels=options.labels,
+        labels=_labels(options),
+        pieces=options.pieces,
+        max_pixels=options.max_pixels,
     )
     encoded = None
     if options.labels_out is not None and observation.instances is not None:
@@ -68,9 +74,16 @@ def measure_image(options: MeasureOptions) -> None:
     print(summarise(measurement), file=sys.stderr)
 
 
+def _labels(options: MeasureOptions) -> Path | None:
+    """Labels that were given one way or the other. Raises: InputError for both."""
+    if options.labels is not None and options.instances is not None:
+        raise InputError("--instances: expected it without --labels, found both")
+    return options.instances if options.labels is None else options.labels
+
+
 def _check_outputs(options: MeasureOptions) -> None:
     """Raises: InputError for an output that cannot be written, is an input or is named twice."""
-    inputs = (options.image, options.range, options.camera, options.labels)
+    inputs = (options.image, options.range, options.camera, _labels(options))
     taken = [path.resolve() for path in inputs if path is not None]
     for path in _outputs(options):
         if path.resolve() in taken:

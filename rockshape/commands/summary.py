@@ -29,6 +29,9 @@ def summarise(measurement: Measurement) -> str:
         why = ", ".join(f"{reason} {count}" for reason, count in observation.left_out.items())
         total = sum(observation.left_out.values())
         parts.append(f"range of {total} of {observation.image.size} pixels left out ({why})")
+    if observation.pixel_size_m is not None:
+        parts.append(f"pixel size {1000 * observation.pixel_size_m:.4g} mm")
+    parts += observation.notes
     return "; ".join(parts)
 
 

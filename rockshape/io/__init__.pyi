@@ -1,6 +1,7 @@
 from .files import InputFile as InputFile
 from .format import CameraFormat as CameraFormat
 from .format import Format as Format
+from .format import ImageContent as ImageContent
 from .format import ImageFormat as ImageFormat
 from .format import ImageInfo as ImageInfo
 from .format import LabelFormat as LabelFormat
@@ -11,6 +12,7 @@ from .format import magic as magic
 from .readers import read_camera as read_camera
 from .readers import read_image as read_image
 from .readers import read_labels as read_labels
+from .readers import read_picture as read_picture
 from .readers import read_pixels as read_pixels
 from .readers import read_points as read_points
 from .readers import read_range as read_range

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from rockshape.io.files import InputFile
     from rockshape.point_grid.points import RangeKind
     from rockshape.rock.instances import Instances
+    from rockshape.rock.pieces import Pieces
 
 Kind = Literal["image", "labels", "range", "camera", "table"]
 Sniff = Callable[[bytes], bool]  # of the first bytes of a file, see `files.HEAD_BYTES`
@@ -41,12 +42,25 @@ def cannot_write(*_: object) -> NoReturn:
     raise InputError("this format is only read")
 
 
+@dataclass(frozen=True, eq=False)
+class ImageContent:
+    """Pixels of an image file, (rows, cols) or (rows, cols, channels), as a viewer turns them.
+
+    Of two channels the second is alpha, of four the last.
+    """
+
+    pixels: "NDArray[np.generic]"
+    pixel_size_m: float | None = None  # side of a pixel on what is seen, where the file tells it
+    orientation: int = 1  # EXIF's, by which the pixels have been turned; 1: not at all
+
+
 @dataclass(frozen=True)
 class ImageInfo:
     """The image that a label, range or camera file belongs to."""
 
     shape: tuple[int, int]  # rows, columns
     name: str = ""  # the file's name without its folder, where there is a file
+    pieces: "Pieces" = "split"  # what becomes of labels that are one mask without ids
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,13 +111,10 @@ class Format:
 
 @dataclass(frozen=True, kw_only=True)
 class ImageFormat(Format):
-    """Image format: pixels (rows, cols) or (rows, cols, channels) as they are stored.
-
-    Of two channels the second is alpha, of four the last.
-    """
+    """Image format: a ImageContent, or its pixels alone where there is no more to tell."""
 
     kind: ClassVar[Kind] = "image"
-    read: "Callable[[InputFile], NDArray[np.generic]]" = cannot_read
+    read: "Callable[[InputFile], ImageContent | NDArray[np.generic]]" = cannot_read
     write: "Callable[[NDArray[np.uint8] | NDArray[np.uint16]], bytes]" = cannot_write
 
 

@@ -34,6 +34,40 @@ def to_grey(pixels: NDArray[np.generic]) -> NDArray[np.float32]:
     return _scaled(opaque)
 
 
+def to_levels(pixels: NDArray[np.generic]) -> NDArray[Any]:
+    """Pixels of any type that a file holds, as a type that `to_unit` accepts.
+
+    8 and 16 bits, and floats from 0 to 1, are kept. Whole numbers of any type are taken for 8 bits
+    where none is above 255, for 16 where none is above 65535. Anything else is stretched from the
+    0.1th to the 99.9th percentile of what is finite; a pixel that is not finite is black.
+    Raises: InputError for what is no number.
+    """
+    if pixels.dtype in FULL_SCALE:
+        return pixels
+    if pixels.dtype.kind not in "biuf":
+        raise InputError(f"image: expected numbers, found {pixels.dtype}")
+    if pixels.dtype == bool:
+        return pixels.astype(np.uint8) * np.uint8(255)
+    values = pixels.astype(np.float32)
+    finite = values[np.isfinite(values)]
+    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
+    whole = pixels.dtype.kind in "iu" or bool(high > 1 and (np.rint(finite) == finite).all())
+    if whole and low >= 0 and high <= 65535:
+        return np.nan_to_num(values, posinf=0).astype(np.uint8 if high <= 255 else np.uint16)
+    return stretch(values) if low < 0 or high > 1 else np.nan_to_num(values, posinf=0)
+
+
+def stretch(pixels: NDArray[np.generic]) -> NDArray[np.float32]:
+    """Pixels from 0 at their 0.1th percentile to 1 at their 99.9th; 0 where they are not finite."""
+    values = np.where(np.isfinite(pixels), pixels, np.nan).astype(np.float32)
+    sparse = values[:: 1 + len(values) // 1000]  # of many rows a thousand
+    if np.isnan(sparse).all():
+        return np.zeros_like(values)
+    low, high = (float(each) for each in np.nanpercentile(sparse, (0.1, 99.9)))
+    span = max(high - low, float(np.finfo(np.float32).tiny))
+    return np.asarray(np.nan_to_num(np.clip((values - low) / span, 0, 1)), dtype=np.float32)
+
+
 def _opaque(pixels: NDArray[np.generic]) -> NDArray[Any]:
     """Pixels (rows, cols) or (rows, cols, 3) without alpha, of their own type or float32."""
     if pixels.ndim not in (2, 3) or 0 in pixels.shape:

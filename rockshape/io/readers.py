@@ -3,8 +3,9 @@
 All raise InputError, in one line that names the file, for what cannot be used.
 """
 
+from dataclasses import replace
 from pathlib import Path
-from typing import cast
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,40 +13,54 @@ from numpy.typing import NDArray
 from rockshape.camera.camera import Camera
 from rockshape.errors import InputError
 from rockshape.io.decoding.range_raster import points_of
-from rockshape.io.format import ImageInfo
-from rockshape.io.pixels import to_unit
+from rockshape.io.files import MAX_PIXELS
+from rockshape.io.format import ImageContent, ImageInfo
+from rockshape.io.pixels import to_levels, to_unit
 from rockshape.io.registry import CAMERAS, IMAGES, LABELS, RANGES
 from rockshape.point_grid.points import PointReading, RangeKind
 from rockshape.rock.instances import Instances
+from rockshape.rock.pieces import Pieces
 
 
-def read_pixels(path: Path | str) -> NDArray[np.uint8] | NDArray[np.uint16]:
-    """Pixels (rows, cols) or (rows, cols, channels) of an image as they are stored.
+def read_picture(path: Path | str, *, max_pixels: int = MAX_PIXELS) -> ImageContent:
+    """Pixels of an image, turned as its orientation tag says, and its pixel size if it tells that.
 
-    Raises: InputError for anything but a whole image of 8 or 16 bits a channel.
+    Pixels are of 8 or 16 bits, or floats from 0 to 1; see `rockshape.io.pixels.to_levels`.
+    Raises: InputError for anything but a whole image of at most max_pixels.
     """
-    with IMAGES.open(path) as (file, chosen):
-        pixels = chosen.read(file)
-    if pixels.dtype not in (np.uint8, np.uint16):
-        raise InputError(f"{path}: expected 8 or 16 bits a channel, found {pixels.dtype}")
-    return cast("NDArray[np.uint8] | NDArray[np.uint16]", pixels)
+    with IMAGES.open(path, max_pixels=max_pixels) as (file, chosen):
+        content = chosen.read(file)
+        picture = content if isinstance(content, ImageContent) else ImageContent(content)
+        return replace(picture, pixels=np.ascontiguousarray(to_levels(picture.pixels)))
+
+
+def read_pixels(path: Path | str) -> NDArray[Any]:
+    """Pixels (rows, cols) or (rows, cols, channels) of an image: those of `read_picture`."""
+    return read_picture(path).pixels
 
 
 def read_image(path: Path | str) -> NDArray[np.float32]:
     """Image (rows, cols) grey or (rows, cols, 3) RGB, from 0 to 1; alpha is dropped.
 
-    Raises: InputError for anything but a whole image of 8 or 16 bits a channel.
+    Raises: InputError for anything but a whole image.
     """
     return to_unit(read_pixels(path))
 
 
-def read_labels(path: Path | str, *, shape: tuple[int, ...], image_name: str = "") -> Instances:
+def read_labels(
+    path: Path | str,
+    *,
+    shape: tuple[int, ...],
+    image_name: str = "",
+    pieces: Pieces = "split",
+) -> Instances:
     """Rocks outlined in an image of a shape (rows, cols, …): own masks, ids as the file has them.
 
-    image_name chooses the image in a file of several.
+    path may be a folder of masks. image_name chooses the image in a file of several; pieces tells
+    whether a label image with a single value is split into its connected pieces.
     Raises: InputError where the file holds no such labels or those of another shape.
     """
-    info = _image_info(shape, image_name)
+    info = replace(_image_info(shape, image_name), pieces=pieces)
     with LABELS.open(path, image_shape=info.shape) as (file, chosen):
         instances = chosen.read(file, info)
     if instances.shape != info.shape:

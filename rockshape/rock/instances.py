@@ -29,11 +29,13 @@ class Instance:
 class Instances:
     """The rocks of an image of a shape (rows, cols), which may overlap.
 
+    notes say, each in a few words, what of a file was left out or read otherwise than it stands.
     Raises: InputError for ids that repeat and masks that do not fit their window of the image.
     """
 
     shape: tuple[int, int]
     items: tuple[Instance, ...] = ()
+    notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if len({item.id for item in self.items}) < len(self.items):
@@ -105,7 +107,9 @@ class Instances:
         Rocks without a pixel are left out.
         """
         return type(self)(
-            self.shape, tuple(_largest_part(item) for item in self.items if item.mask.any())
+            self.shape,
+            tuple(_largest_part(item) for item in self.items if item.mask.any()),
+            self.notes,
         )
 
 

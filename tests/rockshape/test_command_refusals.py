@@ -205,10 +205,10 @@ def test_rocks_are_given_or_found(capsys: pytest.CaptureFixture[str]) -> None:
 def test_a_file_the_system_refuses_is_one_line(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def refused(path: Path) -> None:
+    def refused(path: Path, **_: object) -> None:
         raise OSError(28, "No space left on device", str(path))
 
-    monkeypatch.setattr("rockshape.api.read_pixels", refused)
+    monkeypatch.setattr("rockshape.api.read_picture", refused)
     fails_in_one_line(capsys, ["measure", "a.png", "--range", "b.npz"], "a.png: No space left")
 
 
@@ -226,9 +226,9 @@ def test_a_full_disk_names_the_file_and_leaves_nothing(
 
 
 def test_a_defect_keeps_its_traceback(monkeypatch: pytest.MonkeyPatch) -> None:
-    def broken(path: Path) -> None:
+    def broken(path: Path, **_: object) -> None:
         raise ZeroDivisionError(path)
 
-    monkeypatch.setattr("rockshape.api.read_pixels", broken)
+    monkeypatch.setattr("rockshape.api.read_picture", broken)
     with pytest.raises(ZeroDivisionError):
         main(["measure", "a.png", "--range", "b.npz"])

@@ -86,13 +86,6 @@ def test_planes_stored_apart_are_one_picture(tmp_path: Path) -> None:
     np.testing.assert_array_equal(read_image(path), green)
 
 
-def test_a_float_image_is_refused(tmp_path: Path) -> None:
-    path = tmp_path / "image.tif"
-    tifffile.imwrite(path, RAMP.astype(np.float32))
-    with pytest.raises(InputError, match="8 or 16 bits a channel, found float32"):
-        read_image(path)
-
-
 @pytest.mark.parametrize("ending", ["jpg", "jpeg"])
 def test_jpeg_holds_no_16_bits(tmp_path: Path, ending: str) -> None:
     path = tmp_path / f"image.{ending}"

@@ -1,0 +1,13 @@
+"""PDS3 images."""
+
+from rockshape.io.decoding.pds import is_pds3
+from rockshape.io.decoding.pds_picture import decode_pds
+from rockshape.io.format import ImageFormat
+
+FORMAT = ImageFormat(
+    name="PDS3",
+    suffixes=(".img", ".lbl"),
+    summary="attached or detached label, any numbers, bands as colours; with the extra `pds`",
+    sniff=is_pds3,
+    read=decode_pds,
+)

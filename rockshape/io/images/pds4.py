@@ -1,0 +1,13 @@
+"""PDS4 images."""
+
+from rockshape.io.decoding.pds import is_pds4
+from rockshape.io.decoding.pds_picture import decode_pds
+from rockshape.io.format import ImageFormat
+
+FORMAT = ImageFormat(
+    name="PDS4",
+    suffixes=(".xml",),
+    summary="label beside its data, any numbers, bands as colours; with the extra `pds`",
+    sniff=is_pds4,
+    read=decode_pds,
+)

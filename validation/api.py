@@ -18,6 +18,7 @@ from validation.execution.compare import compare as compare_runs
 from validation.execution.executors import default_jobs, local
 from validation.execution.recorded import check_paired, load_recorded
 from validation.execution.run import prepare, run_suite
+from validation.execution.run_lock import run_lock
 from validation.execution.store import FOLDER, UnitStore
 from validation.execution.suite_result import SuiteResult, suite_result
 from validation.peers.function_process import end_functions
@@ -93,7 +94,7 @@ def _run(
         check_target(folder)
     ready = prepare(chosen)
     start = time.monotonic()
-    with TemporaryDirectory(prefix="rockshape-") as scratch:
+    with TemporaryDirectory(prefix="rockshape-") as scratch, run_lock(folder or Path(scratch)):
         with local(default_jobs() if jobs is None else jobs) as executor:
             outcome = run_suite(
                 ready,

@@ -5,16 +5,18 @@ import sys
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor, as_completed
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import suppress
 from pathlib import Path
 from typing import NoReturn
 
 from tqdm import tqdm
 
 from synth.dataset.files import plain, read_json, write_json
+from synth.dataset.folder_lock import folder_lock
 from synth.dataset.integrity import lost_files, scenes_of
 from synth.dataset.workers import registrations, worker_pool
 from synth.dataset.write import PARTIAL, identity, scene_name, write_common, write_scene
-from synth.errors import SpecError
+from synth.errors import MissingBackendError, SpecError
 from synth.render import choose_backend
 from synth.render.backends import BACKENDS
 from synth.sensor import sensor_of
@@ -39,7 +41,8 @@ def generate_dataset(
     is whole leaves nothing behind.
 
     Raises:
-        SpecError: `out` is a file, a folder of something else or the dataset of another spec;
+        SpecError: `out` is a file, a folder of something else, the dataset of another spec or one
+            that another run writes to;
             the rocks do not fit on the ground, or the files not on the disk.
         MissingBackendError: the machine lacks the renderer.
     """
@@ -47,9 +50,24 @@ def generate_dataset(
         raise SpecError(f"jobs: expected at least 1, found {jobs}")
     sensor_of(spec)  # what cannot be used is reported before anything is written
     registrations()
+    _check_folder(out)
     made = not out.is_dir()
-    fresh = made or not any(out.iterdir())
-    backend = _claim(spec, out, backend or spec.renderer)
+    with folder_lock(out):
+        try:
+            _generate(
+                spec, out, jobs=jobs, show_progress=show_progress, renderer=backend or spec.renderer
+            )
+        except (SpecError, MissingBackendError):
+            if made and not any(out.iterdir()):
+                out.rmdir()
+            raise
+
+
+def _generate(
+    spec: SceneSpec, out: Path, *, jobs: int, show_progress: bool, renderer: RendererName
+) -> None:
+    fresh = all(path.name == PARTIAL for path in out.iterdir())
+    backend = _claim(spec, out, renderer)
     lost = lost_files(out)
     if lost:
         _drop(lost, out, show_progress=show_progress)
@@ -62,7 +80,7 @@ def generate_dataset(
                     bar.advance(name)
             except SpecError:
                 if fresh and not bar.advanced:
-                    _sweep(out, made=made)
+                    _sweep(out)
                 raise
             finally:
                 bar.close()
@@ -97,12 +115,13 @@ class _Progress:
         self._bar.close()
 
 
-def _sweep(out: Path, *, made: bool) -> None:
-    """Take away all that this run has written, and the folder if the run made it."""
-    for path in out.iterdir():
-        shutil.rmtree(path)
-    if made:
-        out.rmdir()
+def _sweep(out: Path) -> None:
+    """Take away what this run has written before its first scene: drafts and models."""
+    shutil.rmtree(out / PARTIAL, ignore_errors=True)
+    for model in (out / "models").glob("obj_*.ply"):
+        model.unlink()
+    with suppress(OSError):
+        (out / "models").rmdir()
 
 
 def _drop(lost: Sequence[str], out: Path, *, show_progress: bool) -> None:
@@ -116,16 +135,19 @@ def _drop(lost: Sequence[str], out: Path, *, show_progress: bool) -> None:
         shutil.rmtree(out / scene_name(index), ignore_errors=True)
 
 
+def _check_folder(out: Path) -> None:
+    if out.exists() and not out.is_dir():
+        raise SpecError(f"{out}: expected a folder, found a file")
+    if out.is_symlink() and not out.exists():
+        raise SpecError(f"{out}: expected a folder, found a link to nowhere")
+
+
 def _claim(spec: SceneSpec, out: Path, renderer: RendererName) -> RendererName:
     """Make sure that `out` is free or holds this very dataset; return the backend to use.
 
     A run leaves its identity beside its unfinished scenes from the start, so that the next can
     tell; `auto` sticks to the backend that a dataset was begun with.
     """
-    if out.exists() and not out.is_dir():
-        raise SpecError(f"{out}: expected a folder, found a file")
-    if out.is_symlink() and not out.exists():
-        raise SpecError(f"{out}: expected a folder, found a link to nowhere")
     begun = next((path for path in _identity_files(out) if path.is_file()), None)
     if begun is None:
         if out.is_dir() and any(path.name != PARTIAL for path in out.iterdir()):

@@ -2,16 +2,19 @@
 
 import csv
 import io
+import shutil
 from collections.abc import Sequence
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from tempfile import mkdtemp
 
 from synth.dataset.files import write_png
+from synth.dataset.folder_lock import folder_lock
 from synth.errors import SpecError
 from synth.shapes.draw import draw_named_series
 from synth.shapes.svg import svg_text
 from synth.spec.shapes import JITTER_RMS_PX
 
+_DRAFT = ".rockshape-"  # begins the folder of files that are not whole yet
 _FILES = ("image.png", "image.svg", "labels.png", "truth.csv")
 
 
@@ -28,7 +31,7 @@ def write_series(
 
     Raises:
         SpecError: an unknown series, a count, values or a jitter out of range, or a folder
-            that is a file or holds other files.
+            that is a file, holds other files or is being written by another run.
     """
     _check_free(out)
     shapes, drawing = draw_named_series(
@@ -36,9 +39,11 @@ def write_series(
     )
     svg = svg_text(shapes, drawing.drawn_px, drawing.middles_px, shape=drawing.labels.shape)
     try:
-        out.mkdir(parents=True, exist_ok=True)
-        with TemporaryDirectory(dir=out, prefix=".") as name:
-            draft = Path(name)
+        with folder_lock(out):
+            _check_free(out)
+            for stale in out.glob(f"{_DRAFT}*"):
+                shutil.rmtree(stale)
+            draft = Path(mkdtemp(dir=out, prefix=_DRAFT))
             write_png(draft / "image.png", drawing.image)
             write_png(draft / "labels.png", drawing.labels)
             (draft / "image.svg").write_text(svg, encoding="utf-8", newline="")
@@ -46,6 +51,7 @@ def write_series(
             (draft / "truth.csv").write_text(table, encoding="utf-8", newline="")
             for file in _FILES:
                 (draft / file).replace(out / file)
+            draft.rmdir()
     except OSError as error:
         raise SpecError(f"{out}: expected a folder to write to, found {error.strerror}") from error
 
@@ -55,7 +61,9 @@ def _check_free(out: Path) -> None:
     if out.exists() and not out.is_dir():
         raise SpecError(f"{out}: expected a folder to write to, found a file")
     held = {path.name for path in out.iterdir()} if out.is_dir() else set()
-    if held and held != set(_FILES):
+    drafts = {name for name in held if name.startswith(_DRAFT)}
+    broken_off = bool(drafts) and held - drafts <= set(_FILES)
+    if held and held != set(_FILES) and not broken_off:
         raise SpecError(f"{out}: expected an empty folder or a drawing, found other files")
 
 

@@ -17,6 +17,7 @@ from validation.commands.progress import Progress
 from validation.errors import InputError, Terminated
 from validation.execution.executors import cluster, default_jobs, local
 from validation.execution.run import Run, prepare, run_suite
+from validation.execution.run_lock import run_lock
 from validation.execution.store import FOLDER, UnitStore, unit_key
 from validation.execution.units import units_of
 from validation.peers.function_process import end_functions
@@ -117,17 +118,18 @@ def _run(args: argparse.Namespace) -> int:
     place = cluster(args.scheduler) if args.scheduler else local(jobs)
     suite = prepare(suite)
     start = time.monotonic()
-    with ExitStack() as stack:
-        executor = stack.enter_context(place)
-        store = UnitStore(out / FOLDER, keep=args.resume)
-        units = units_of(suite)
-        progress = stack.enter_context(
-            closing(Progress(len(units), sum(store.has(unit_key(unit)) for unit in units)))
-        )
-        outcome = run_suite(
-            suite, gates=gates, executor=executor, store=store, on_done=progress.advance
-        )
-    seconds = time.monotonic() - start
-    write_run(outcome, out, command=_command(args, jobs), seconds=seconds)
+    with run_lock(out):
+        with ExitStack() as stack:
+            executor = stack.enter_context(place)
+            store = UnitStore(out / FOLDER, keep=args.resume)
+            units = units_of(suite)
+            progress = stack.enter_context(
+                closing(Progress(len(units), sum(store.has(unit_key(unit)) for unit in units)))
+            )
+            outcome = run_suite(
+                suite, gates=gates, executor=executor, store=store, on_done=progress.advance
+            )
+        seconds = time.monotonic() - start
+        write_run(outcome, out, command=_command(args, jobs), seconds=seconds)
     _print_verdict(outcome, out, seconds)
     return 0 if outcome.passed else 1

@@ -8,7 +8,6 @@ import hashlib
 import io
 import json
 import os
-import shutil
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
@@ -128,6 +127,13 @@ def is_store(folder: Path) -> bool:
         return False
 
 
+def is_store_or_empty(folder: Path) -> bool:
+    """Tell whether a folder holds unit results or nothing whole, or is not there."""
+    if is_store(folder) or not folder.exists():
+        return True
+    return folder.is_dir() and all(path.suffix == ".partial" for path in folder.iterdir())
+
+
 class UnitStore:
     """The unit results in one folder; this process alone writes there."""
 
@@ -137,15 +143,15 @@ class UnitStore:
         Raises:
             InputError: the folder holds something else.
         """
-        if folder.exists() and not is_store(folder) and any(folder.iterdir()):
+        if not is_store_or_empty(folder):
             raise InputError(f"{folder}: expected unit results of a run, found other files")
-        if not keep:
-            shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True, exist_ok=True)
-        for unfinished in folder.glob("*/*.partial"):
-            unfinished.unlink()
-        (folder / _MARK).write_text(json.dumps({"format": FORMAT}) + "\n", encoding="utf-8")
         self._folder = folder
+        if not is_store(folder):
+            self._write(folder / _MARK, json.dumps({"format": FORMAT}).encode() + b"\n")
+        for pattern in ("*.partial", "*/*.partial", *(() if keep else ("*/*.parquet",))):
+            for stale in folder.glob(pattern):
+                stale.unlink()
 
     def path(self, key: str) -> Path:
         """Where the result of a key stands."""
@@ -162,9 +168,13 @@ class UnitStore:
         """Write a packed result, whole or not at all."""
         path = self.path(key)
         path.parent.mkdir(exist_ok=True)
+        self._write(path, packed)
+
+    @staticmethod
+    def _write(path: Path, data: bytes) -> None:
         partial = path.with_suffix(f".{os.getpid()}.partial")
         with partial.open("wb") as file:
-            file.write(packed)
+            file.write(data)
             file.flush()
             os.fsync(file.fileno())
         partial.replace(path)

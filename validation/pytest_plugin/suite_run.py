@@ -13,6 +13,7 @@ from synth.errors import MissingBackendError
 from validation.errors import InputError, MissingPackageError, WorkerError
 from validation.execution.executors import default_jobs, local
 from validation.execution.run import Run, prepare, run_suite
+from validation.execution.run_lock import run_lock
 from validation.execution.store import UnitStore, unit_key
 from validation.execution.units import units_of
 from validation.peers.parse import settle
@@ -95,7 +96,8 @@ def _run(suite: Suite, folder: Path, config: pytest.Config) -> Outcome:
     seconds = time.monotonic() - start
     if report is not None:
         command = shlex.join(["pytest", *config.invocation_params.args])
-        write_run(run, report, command=command, seconds=seconds)
+        with run_lock(report):
+            write_run(run, report, command=command, seconds=seconds)
     keep_recent(folder, [store.path(key) for key in keys], pattern="*/*.parquet")
     return Outcome(
         suite=suite.name,

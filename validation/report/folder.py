@@ -2,13 +2,14 @@
 
 import json
 import os
+import shutil
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from validation.errors import InputError
 from validation.execution.recorded import FORMAT
 from validation.execution.run import Run
-from validation.execution.store import FOLDER, is_store
+from validation.execution.store import FOLDER, is_store_or_empty
 from validation.report.junit import junit_xml
 from validation.report.page import page_html
 from validation.report.scores_json import scores_json
@@ -16,12 +17,14 @@ from validation.report.summary import summary_markdown
 
 SCORES = "scores.json"
 PAGE = "index.html"
+_DRAFT = ".draft-"  # begins the folder of files that are not whole yet, within a run's folder
 _FILES = (PAGE, SCORES, "results.parquet", "junit.xml", "summary.md")
 
 
 def _is_run(folder: Path) -> bool:
-    """Tell whether a folder holds a run, or one that was broken off: unit results alone."""
-    if [path.name for path in folder.iterdir()] == [FOLDER] and is_store(folder / FOLDER):
+    """Tell whether a folder holds a run, or one that was broken off: unit results, some files."""
+    names = {path.name for path in folder.iterdir() if not path.name.startswith(_DRAFT)}
+    if FOLDER in names and names <= {FOLDER, *_FILES} and is_store_or_empty(folder / FOLDER):
         return True
     try:
         held = json.loads((folder / SCORES).read_text(encoding="utf-8"))
@@ -68,11 +71,14 @@ def _beside(out: Path) -> TemporaryDirectory[str]:
 def write_run(run: Run, out: Path, *, command: str, seconds: float) -> None:
     """Write the five files of a run.
 
-    They are made in a folder beside `out` and moved when all are whole. An earlier run's files
-    are replaced one by one, the page last; what else lies there stays.
+    They are made in a folder beside `out`, or within where it exists, and moved when all are whole.
+    An earlier run's files are replaced one by one, the page last; what else lies there stays.
     """
     check_target(out)
-    with _beside(out) as staging:
+    for stale in out.glob(f"{_DRAFT}*"):
+        shutil.rmtree(stale, ignore_errors=True)
+    place = TemporaryDirectory(prefix=_DRAFT, dir=out) if out.is_dir() else _beside(out)
+    with place as staging:
         whole = Path(staging) / "run"
         whole.mkdir()
         run.records.to_parquet(whole / "results.parquet", index=False)

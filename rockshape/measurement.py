@@ -57,7 +57,7 @@ class Rock:
     height_px: int
     truncated: bool  # touches the border of the frame, or of its measured part if found by range
     visible_fraction: float  # of the fitted ellipse, in the frame and not behind a nearer rock
-    outline_px: NDArray[np.float64]  # (n, 2) as (x, y)
+    outline_px: NDArray[np.float64]  # (n, 2) as (x, y), the outline that is measured
     ellipse: Ellipse | None
     ellipsoid: Ellipsoid | None
     readings: dict[str, Reading]  # by the measures' columns

@@ -23,7 +23,7 @@ from rockshape.segmentation.finders import FINDERS
 
 if TYPE_CHECKING:
     from rockshape.ground import Ground
-    from rockshape.observation import Observation
+    from rockshape.observation import Observation, Outline
     from rockshape.segmentation.result import Segmentation
 
 METHODS_GROUP = "rockshape.methods"
@@ -36,6 +36,7 @@ class Fits:
 
     ellipse: Ellipse | None
     ellipsoid: Ellipsoid | None
+    outline_px: "Outline | None" = None  # that the measures see; None: the rock's edge
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,11 +63,12 @@ def _robust_ground(observation: "Observation") -> "Ground | None":
 
 
 def _published_fits(view: RockView) -> Fits:
-    return Fits(view.ellipse, None if view.ellipsoid is None else view.ellipsoid.ellipsoid)
+    ellipsoid = None if view.ellipsoid is None else view.ellipsoid.ellipsoid
+    return Fits(view.ellipse, ellipsoid, view.outline_px)
 
 
 def _robust_fits(view: RockView) -> Fits:
-    return Fits(view.form_ellipse, view.held_ellipsoid)
+    return Fits(view.form_ellipse, view.held_ellipsoid, view.smooth_outline_px)
 
 
 PAPER = Method(

@@ -24,7 +24,10 @@ LabelImage = NDArray[np.int32]
 """Rock ids (rows, cols), 0 the ground."""
 
 Outline = NDArray[np.float64]
-"""Closed outline (n, 2) as (x, y) in pixels, pixel centres at whole numbers."""
+"""Closed outline (n, 2) as (x, y) in pixels, clockwise as seen, the first point not repeated.
+
+Pixel centres are at whole numbers, so that a rock of one pixel reaches from -0.5 to 0.5 about it.
+"""
 
 SURE_RESIDUAL_PX = 0.5  # a camera at the origin that explains the grid this well is the one
 WORST_RESIDUAL_PX = 3.0  # a grid that no camera explains better than this is not one camera's

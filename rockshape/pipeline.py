@@ -146,7 +146,7 @@ def _rock(
     described: bool,
 ) -> Rock:
     rows, cols = part.window
-    outline_px = view.outline_px.view()
+    outline_px = (view.edge_px if fits.outline_px is None else fits.outline_px).view()
     outline_px.setflags(write=False)
     pixel_rows, pixel_cols = np.nonzero(part.mask)
     return Rock(

@@ -67,3 +67,19 @@ def test_it_is_not_smoothed_by_the_blur_that_a_staircase_asks_for() -> None:
     assert (x / 9.0) ** 2 + (y / 6.0) ** 2 == pytest.approx(1, abs=0.01)
     steps = np.linalg.norm(np.diff(view.smooth_outline_px, axis=0), axis=1)
     assert np.ptp(steps) < 0.01 * steps.mean()
+
+
+def test_the_outline_shown_is_the_one_measured() -> None:
+    rows, cols = np.mgrid[:60, :60]
+    mask = np.hypot(cols - 30.3, rows - 28.6) < 9
+    outline = ellipse(9.0, 9.0, turn=0.0, x=30.3, y=28.6)
+
+    def radii(edge: np.ndarray | None, method: str = "robust") -> np.ndarray:
+        (rock,) = rockshape.measure(labels=instances(edge, mask), method=method)
+        assert not rock.outline_px.flags.writeable
+        return np.hypot(*(rock.outline_px - (30.3, 28.6)).T)
+
+    assert radii(outline) == pytest.approx(9, abs=0.01)
+    assert radii(None) == pytest.approx(9, abs=0.5)
+    assert radii(None).mean() == pytest.approx(9, abs=0.1)
+    assert radii(outline, "paper").mean() == pytest.approx(8.5, abs=0.15)  # pixels' centres

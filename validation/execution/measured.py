@@ -11,7 +11,7 @@ from rockshape.measurement import to_frame
 from rockshape.observation import Observation
 from rockshape.pipeline import measure
 from validation.execution.units import UnitResult
-from validation.peers import MeasureSpec, Seen, run_measure
+from validation.peers import MeasureSpec, Seen, outlines_px, run_measure
 from validation.records.join import RecordKey, join
 from validation.records.rock_thumbnails import portraits, whole_view
 
@@ -42,9 +42,9 @@ def measure_view(
     """
     image = view.observation.image
     found = [measure(view.observation, method=method, labels=view.given) for method in methods]
-    labels = found[0].labels
+    labels, rocks = found[0].labels, found[0].instances
     tables = [(each.method, each.labels, to_frame(each)) for each in found]
-    seen = Seen(image, labels, view.observation.points_m)
+    seen = Seen(image, labels, view.observation.points_m, outlines_px(rocks))
     tables += [(spec.name, labels, run_measure(spec, seen)) for spec in measures]
     records = pd.concat(
         [

@@ -3,7 +3,7 @@
 from validation.peers.declare import expected_trait
 from validation.peers.run import run_measure, source_digest
 from validation.peers.spec import MeasureSpec, Name, Text, Trait, normalise_measures
-from validation.peers.view_input import Seen
+from validation.peers.view_input import Seen, outlines_px
 
 __all__ = [
     "MeasureSpec",
@@ -13,6 +13,7 @@ __all__ = [
     "Trait",
     "expected_trait",
     "normalise_measures",
+    "outlines_px",
     "run_measure",
     "source_digest",
 ]

@@ -126,7 +126,7 @@ def _columns(function: Function, name: str, seen: Seen, *, where: str) -> dict[s
         InputError: a rock has other columns than the first, or what is no number.
     """
     columns: dict[str, list[float]] = {}
-    for index, (number, shape) in enumerate(_SHAPES[name](seen.labels)):
+    for index, (number, shape) in enumerate(_SHAPES[name](seen)):
         here = f"{where}: rock {number}"
         given = _call_by_name(function, {name: shape}, where=here)
         row = given if isinstance(given, Mapping) else {"value": given}
@@ -153,16 +153,21 @@ def _number(value: object, *, where: str) -> float:
     )
 
 
-def _masks(labels: NDArray[np.int32]) -> Iterator[tuple[int, NDArray[np.bool_]]]:
+def _masks(seen: Seen) -> Iterator[tuple[int, NDArray[np.bool_]]]:
     """Each rock's number and mask (rows, cols): its largest connected part with a margin."""
-    for rock in Instances.from_labels(labels).largest_parts():
+    for rock in Instances.from_labels(seen.labels).largest_parts():
         yield rock.id, read_only(np.pad(rock.mask, MARGIN_PX))
 
 
-def _outlines(labels: NDArray[np.int32]) -> Iterator[tuple[int, NDArray[np.float64]]]:
-    """Each rock's number and outline (n, 2), x and y in the image's pixels; see `trace_edge`."""
-    for rock in Instances.from_labels(labels).largest_parts():
-        yield rock.id, read_only(trace_edge(rock.mask) + _corner_px(rock))
+def _outlines(seen: Seen) -> Iterator[tuple[int, NDArray[np.float64]]]:
+    """Each rock's number and outline (n, 2), x and y in the image's pixels.
+
+    As found to sub-pixel, or else the edge of the mask (`trace_edge`).
+    """
+    for rock in Instances.from_labels(seen.labels).largest_parts():
+        found = seen.outlines_px.get(rock.id)
+        outline = trace_edge(rock.mask) + _corner_px(rock) if found is None else found
+        yield rock.id, read_only(outline)
 
 
 def _corner_px(rock: Instance) -> tuple[int, int]:
@@ -170,7 +175,7 @@ def _corner_px(rock: Instance) -> tuple[int, int]:
     return cols.start, rows.start
 
 
-_SHAPES: Mapping[str, Callable[[NDArray[np.int32]], Iterator[tuple[int, NDArray[np.generic]]]]] = {
+_SHAPES: Mapping[str, Callable[[Seen], Iterator[tuple[int, NDArray[np.generic]]]]] = {
     "mask": _masks,
     "outline": _outlines,
 }

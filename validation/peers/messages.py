@@ -41,6 +41,7 @@ class Request(Struct, frozen=True, kw_only=True):
     image: Array
     labels: Array
     points_m: Array | None
+    outlines_px: dict[int, Array]
     where: str  # begins the message of an error
 
     @classmethod
@@ -51,6 +52,7 @@ class Request(Struct, frozen=True, kw_only=True):
             image=Array.of(seen.image),
             labels=Array.of(seen.labels),
             points_m=points,
+            outlines_px={number: Array.of(each) for number, each in seen.outlines_px.items()},
             where=where,
         )
 
@@ -61,6 +63,7 @@ class Request(Struct, frozen=True, kw_only=True):
             self.image.array().astype(np.float32, copy=False),
             self.labels.array().astype(np.int32, copy=False),
             points,
+            {n: each.array().astype(np.float64) for n, each in self.outlines_px.items()},
         ).read_only()
 
 

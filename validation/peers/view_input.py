@@ -1,13 +1,14 @@
 """Input and output records of a measure from elsewhere."""
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeVar
 
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from rockshape.rock.instances import Instances
 from validation.errors import InputError
 from validation.records.join import RecordKey
 
@@ -31,11 +32,16 @@ def read_only(values: NDArray[A]) -> NDArray[A]:
 
 @dataclass(frozen=True, eq=False)
 class Seen:
-    """One view as it is passed to a measure."""
+    """One view as it is passed to a measure.
+
+    outlines_px are the outlines (n, 2) that were found to sub-pixel, by the rock's number; of other
+    rocks the edge of the mask is the outline.
+    """
 
     image: NDArray[np.float32]  # (rows, cols), 0..1
     labels: NDArray[np.int32]  # (rows, cols), 0 the ground
     points_m: NDArray[np.float64] | None  # (rows, cols, 3) in the camera frame, NaN where unknown
+    outlines_px: Mapping[int, NDArray[np.float64]] = field(default_factory=dict)
 
     @property
     def numbers(self) -> NDArray[np.int64]:
@@ -46,7 +52,13 @@ class Seen:
     def read_only(self) -> "Seen":
         """View whose arrays cannot be written to."""
         points_m = None if self.points_m is None else read_only(self.points_m)
-        return Seen(read_only(self.image), read_only(self.labels), points_m)
+        outlines_px = {number: read_only(each) for number, each in self.outlines_px.items()}
+        return Seen(read_only(self.image), read_only(self.labels), points_m, outlines_px)
+
+
+def outlines_px(rocks: Instances) -> dict[int, NDArray[np.float64]]:
+    """Outline (n, 2) of each rock that has one found to sub-pixel, by its number."""
+    return {rock.id: rock.outline_px for rock in rocks if rock.outline_px is not None}
 
 
 def as_table(given: object, numbers: NDArray[np.int64], *, where: str) -> pd.DataFrame:

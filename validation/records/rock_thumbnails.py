@@ -3,12 +3,12 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-import cv2
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
 from rockshape.measurement import Measurement
+from rockshape.outline.edge import trace_edge
 from validation.records.join import RecordKey
 from validation.records.pictures import (
     TRUE,
@@ -106,7 +106,5 @@ class _Painter:
 
 
 def _true_border(true: NDArray[np.bool_], instance: int, cut: Cut) -> Mark:
-    """Border of a true mask: of its largest piece, round its pixels' centres."""
-    contours, _ = cv2.findContours(true.astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
-    largest = max(contours, key=len)
-    return mark(TRUE, instance, largest[:, 0].astype(np.float64), None, cut)
+    """Edge of a true mask's largest part."""
+    return mark(TRUE, instance, trace_edge(true), None, cut)

@@ -2,12 +2,15 @@
 
 import functools
 
+import msgspec
 import numpy as np
 import pytest
 
+from rockshape import Instance, Instances
 from validation.errors import InputError
-from validation.peers import MeasureSpec, Seen, expected_trait
+from validation.peers import MeasureSpec, Seen, expected_trait, outlines_px
 from validation.peers.call import MARGIN_PX, call_measure
+from validation.peers.messages import Request
 from validation.peers.parse import parse_measure, settle
 from validation.suite.suite import load_suite
 
@@ -219,3 +222,26 @@ def test_a_decorated_function_stays_as_it_is() -> None:
         return float(mask.sum())
 
     assert expected_trait("form")(measure) is measure
+
+
+def test_an_outline_found_to_sub_pixel_is_passed_on_to_a_worker_too(seen) -> None:
+    found = np.array([[30.1, 20.2], [34.3, 20.2], [32.0, 24.4]])
+    rocks = Instances(
+        seen.labels.shape,
+        (
+            Instance(3, np.s_[5:9, 5:13], np.ones((4, 8), dtype=bool)),
+            Instance(7, np.s_[20:25, 30:35], np.ones((5, 5), dtype=bool), found),
+        ),
+    )
+    given = []
+
+    def highest(outline) -> float:
+        given.append(outline)
+        return outline[:, 1].max()
+
+    view = Seen(seen.image, seen.labels, seen.points_m, outlines_px(rocks))
+    sent = msgspec.msgpack.encode(Request.of(view, where="m"))
+    received = msgspec.msgpack.decode(sent, type=Request).seen()
+    assert _called(highest, received) == {"value": [8.5, 24.4]}  # of rock 3 the pixels' sides
+    np.testing.assert_array_equal(given[1], found)
+    assert not given[1].flags.writeable

@@ -19,7 +19,7 @@ from rockshape.method import Method
 from rockshape.observation import Observation
 from rockshape.pipeline import measure as measure_observation
 from rockshape.point_grid.points import PointReading, RangeKind, points_from
-from rockshape.point_grid.units import RangeScale
+from rockshape.point_grid.units import RangeScale, parse_unit
 from rockshape.rock.instances import Instances
 from rockshape.rock.pieces import Pieces
 from rockshape.segmentation.finders import Finder
@@ -29,6 +29,7 @@ def measure(
     image: ArrayLike | Observation | None = None,
     *,
     range_m: ArrayLike | None = None,
+    range_unit: str | None = None,
     camera: PinholeLike | None = None,
     labels: ArrayLike | Instances | None = None,
     method: str | Method = "robust",
@@ -42,6 +43,8 @@ def measure(
       left out where range or labels are given.
     - range_m: points (rows, cols, 3) in the camera frame, or z-depth (rows, cols) with a camera;
       metres. NaN, infinity, a z-depth of 0 and the point (0, 0, 0) are no measurement.
+    - range_unit: unit of range_m in place of metres, `mm` or `0.25mm` say; any distance is then
+      believed. Without it a median distance below 1 cm or above 200 m is refused.
     - camera: what took the image, any object with fx, fy, cx, cy in pixels. Needed for z-depth;
       else found from the points.
     - labels: rocks outlined already: (rows, cols) of whole numbers, 0 the ground, or Instances.
@@ -56,11 +59,13 @@ def measure(
         and there is none.
     """
     if isinstance(image, Observation):
-        if range_m is not None or camera is not None:
-            raise InputError("measure: expected an Observation's own range_m and camera, not both")
+        if range_m is not None or camera is not None or range_unit is not None:
+            raise InputError("measure: expected an Observation's own range and camera, not both")
         observation = image
     else:
-        observation = observe(image, range_m=range_m, camera=camera, labels=labels)
+        observation = observe(
+            image, range_m=range_m, range_unit=range_unit, camera=camera, labels=labels
+        )
     given = None if labels is None else _instances(labels)
     return measure_observation(
         observation, method=method, find=find, labels=given, descriptors=descriptors
@@ -71,6 +76,7 @@ def observe(
     image: ArrayLike | None,
     *,
     range_m: ArrayLike | None = None,
+    range_unit: str | None = None,
     camera: PinholeLike | None = None,
     labels: ArrayLike | Instances | None = None,
 ) -> Observation:
@@ -85,7 +91,7 @@ def observe(
     if not shapes:
         raise InputError("measure: expected image, range_m or labels, found none of them")
     known = None if camera is None else as_camera(camera, shape=shapes[0])
-    seen = None if points is None else _points(points, known)
+    seen = None if points is None else _points(points, known, range_unit)
     return Observation(
         image=np.zeros(shapes[0], dtype=np.float32) if pixels is None else to_grey(pixels),
         points_m=None if seen is None else seen.points_m,
@@ -160,7 +166,7 @@ def _instances(labels: ArrayLike | Instances) -> Instances:
     return Instances.from_labels(_whole(np.asarray(labels)))
 
 
-def _points(range_m: NDArray[np.generic], camera: Camera | None) -> PointReading:
+def _points(range_m: NDArray[np.generic], camera: Camera | None, unit: str | None) -> PointReading:
     """Points (rows, cols, 3), a fresh array; one with any part unknown is unknown whole."""
     by_dimensions: dict[int, RangeKind] = {2: "depth", 3: "xyz"}
     kind = by_dimensions.get(range_m.ndim)
@@ -168,8 +174,9 @@ def _points(range_m: NDArray[np.generic], camera: Camera | None) -> PointReading
         raise InputError(
             f"range_m: expected (rows, cols) or (rows, cols, 3), found {range_m.shape}"
         )
+    scale = RangeScale() if unit is None else parse_unit(unit)
     try:
-        return points_from(range_m, kind=kind, camera=camera, scale=RangeScale())
+        return points_from(range_m, kind=kind, camera=camera, scale=scale)
     except InputError as error:
         raise InputError(f"range_m: {error}") from None
 

@@ -148,7 +148,7 @@ def _direct_linear(
     calibration, rotation = np.asarray(calibration), np.asarray(rotation)
     signs = np.diag(np.sign(np.diag(calibration)))
     calibration, rotation = calibration @ signs, signs @ rotation
-    if np.linalg.det(rotation) < 0 or calibration[2, 2] == 0:
+    if np.linalg.det(rotation) < 0 or np.linalg.matrix_rank(calibration) < 3:
         return None
     translation = np.linalg.solve(calibration, projection[:, 3]) * size - rotation @ centre
     focal = float(np.sqrt(abs(np.linalg.det(calibration[:2, :2])))) / calibration[2, 2] * scale

@@ -3,6 +3,7 @@
 import dataclasses
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -187,5 +188,21 @@ def test_an_observation_brings_its_own_range_and_keeps_the_colour() -> None:
     assert by_arrays.observation.image.shape == solids.CAMERA.shape
     again = rockshape.measure(by_arrays.observation)
     pd.testing.assert_frame_equal(again.to_frame(), by_arrays.to_frame())
-    with pytest.raises(rockshape.InputError, match="an Observation's own range_m"):
+    with pytest.raises(rockshape.InputError, match="an Observation's own range and camera"):
         rockshape.measure(by_arrays.observation, range_m=ball())
+
+
+def test_a_range_unit_says_what_the_numbers_are_and_that_they_are_meant() -> None:
+    y, x = np.mgrid[:40, :50]
+    depth = 1.5 + 0.01 * y
+    camera = SimpleNamespace(fx=60.0, fy=60.0, cx=25.0, cy=20.0)
+    labels = (np.hypot(x - 25, y - 20) < 12).astype(np.int32)
+    metres = rockshape.measure(range_m=depth, camera=camera, labels=labels)
+    millimetres = rockshape.measure(
+        range_m=1000 * depth, range_unit="mm", camera=camera, labels=labels
+    )
+    assert metres[0].values == pytest.approx(millimetres[0].values, nan_ok=True)
+    with pytest.raises(rockshape.InputError, match="range_m: range: expected a median of"):
+        rockshape.measure(range_m=1000 * depth, camera=camera, labels=labels)
+    far = rockshape.measure(range_m=1000 * depth, range_unit="m", camera=camera, labels=labels)
+    assert np.nanmedian(far.observation.points_m[..., 2]) == pytest.approx(1700, rel=0.01)

@@ -86,6 +86,7 @@ class Format:
     suffixes: tuple[str, ...]  # lower-case with the dot, `.png`
     summary: str  # what such a file holds, in a line
     sniff: Sniff | None = None  # whether the content is of this format; None: told by suffix alone
+    folder: bool = False  # whether it is a folder and no file
     read: Callable[..., Any] = cannot_read
     write: Callable[..., bytes] = cannot_write
 

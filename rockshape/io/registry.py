@@ -30,7 +30,9 @@ from rockshape.io.format import (
     Kind,
     LabelFormat,
     RangeFormat,
+    Sniff,
     TableFormat,
+    magic,
     suffix_of,
 )
 from rockshape.io.guard import guard, reason_of
@@ -46,6 +48,7 @@ class FormatRegistry(Generic[F]):
     record: type[F]
     noun: str  # what a file of this kind is, for the messages
     package: str  # whose FORMATS are our own
+    unfit: tuple[tuple[Sniff, str], ...] = ()  # contents that are refused, and the words for why
     registered: dict[str, F] = field(default_factory=dict)  # in this process, by name
 
     @property
@@ -101,7 +104,7 @@ class FormatRegistry(Generic[F]):
             image_shape=image_shape,
         )
         with guard(file.refusal):
-            chosen = _choose(file, readable)
+            chosen = _choose(file, readable, self.unfit)
         file = replace(file, expected=f"{self.noun} ({chosen.name})")
         with guard(file.refusal):
             yield file, chosen
@@ -129,7 +132,12 @@ class FormatRegistry(Generic[F]):
 
 
 IMAGES = FormatRegistry(ImageFormat, "an image", "rockshape.io.images")
-LABELS = FormatRegistry(LabelFormat, "labels", "rockshape.io.labels")
+LABELS = FormatRegistry(
+    LabelFormat,
+    "labels",
+    "rockshape.io.labels",
+    unfit=((magic(b"\xff\xd8\xff"), "JPEG, whose lossy compression changes numbers"),),
+)
 RANGES = FormatRegistry(RangeFormat, "range", "rockshape.io.range")
 CAMERAS = FormatRegistry(CameraFormat, "a camera", "rockshape.io.cameras")
 TABLES = FormatRegistry(TableFormat, "a table", "rockshape.io.tables")
@@ -175,8 +183,13 @@ def _load(point: EntryPoint) -> Format:
     return loaded
 
 
-def _choose(file: InputFile, formats: Sequence[F]) -> F:
+def _choose(file: InputFile, formats: Sequence[F], unfit: Sequence[tuple[Sniff, str]] = ()) -> F:
     """Return the format of a file by the three rules above, or refuse it."""
+    if file.path.is_dir():
+        folders = [each for each in formats if each.folder]
+        if folders:
+            return folders[0]
+        raise file.refusal("a directory")
     suffix = suffix_of(file.path)
     named = [each for each in formats if suffix in each.suffixes]
     fitting = chain(
@@ -187,6 +200,9 @@ def _choose(file: InputFile, formats: Sequence[F]) -> F:
     chosen = next(fitting, None)
     if chosen is not None:
         return chosen
+    reasons = [reason for sniff, reason in unfit if sniff(file.head)]
+    if reasons:
+        raise file.refusal(reasons[0])
     found = describe_content(file.head, known_formats())
     if not named:
         found += f", and the suffix {suffix}" if suffix else ", and no suffix"

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from rockshape.errors import InputError
 
 MAX_LABEL = 2**31 - 1  # of a label image
+MAX_ID = 2**63 - 1  # of a rock: what a table of whole numbers holds
 Window = tuple[slice, slice]
 
 

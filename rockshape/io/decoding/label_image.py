@@ -1,35 +1,64 @@
 """Label images: whole numbers (rows, cols), a rock's id in each of its pixels and 0 elsewhere."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.errors import InputError
-from rockshape.rock.instances import MAX_LABEL, Instances
+from rockshape.io.decoding.mask_stack import stack_instances
+from rockshape.rock.instances import MAX_ID, Instances
+from rockshape.rock.pieces import split_pieces
 
 if TYPE_CHECKING:
     from rockshape.io.files import InputFile
+    from rockshape.io.format import ImageInfo
 
 MAX_UINT16 = 2**16 - 1
 
 
-def instances_of(file: "InputFile", labels: NDArray[np.generic]) -> Instances:
-    """Instances of a label image that a file holds.
+def instances_of(file: "InputFile", labels: NDArray[Any], info: "ImageInfo") -> Instances:
+    """Instances of an array: a label image, or a stack of masks where it has three dimensions.
 
-    Raises: InputError for anything but a grey image of whole numbers from 0 to 2147483647.
+    Floats are read where they are whole. A single value in several pieces is a mask without ids,
+    see `split_pieces`.
+    Raises: InputError for anything but whole numbers of at least 0.
     """
-    if labels.ndim != 2 or not np.issubdtype(labels.dtype, np.integer):
+    if labels.ndim == 3 and 1 not in labels.shape:
+        return stack_instances(file, _planes(labels, info), info)
+    numbers = labels.squeeze() if labels.ndim == 3 else labels
+    if numbers.ndim != 2:
         raise InputError(
             f"{file.path}: expected a label image, (rows, cols) of whole numbers with 0 the "
             f"ground, found {labels.shape} of {labels.dtype}"
         )
-    if labels.size and (labels.min() < 0 or labels.max() > MAX_LABEL):
+    return split_pieces(Instances.from_labels(_whole(file, numbers)), info.pieces)
+
+
+def _planes(labels: NDArray[Any], info: "ImageInfo") -> NDArray[Any]:
+    """Masks (n, rows, cols) of an array that has them first or last."""
+    first = labels.shape[1:] == info.shape or labels.shape[:2] != info.shape
+    return labels if first else np.moveaxis(labels, 2, 0)
+
+
+def _whole(file: "InputFile", labels: NDArray[Any]) -> NDArray[np.integer]:
+    if labels.dtype == bool:
+        return labels.view(np.uint8)
+    if labels.dtype.kind == "f":
+        if not (np.isfinite(labels).all() and (np.rint(labels) == labels).all()):
+            raise InputError(
+                f"{file.path}: expected a label image of whole numbers, found fractions of "
+                f"{labels.dtype}"
+            )
+    elif labels.dtype.kind not in "iu":
+        raise InputError(f"{file.path}: expected whole numbers, found {labels.dtype}")
+    if labels.size and (labels.min() < 0 or labels.max() > MAX_ID):
         raise InputError(
-            f"{file.path}: expected labels from 0 to {MAX_LABEL}, "
+            f"{file.path}: expected labels from 0 to {MAX_ID}, "
             f"found {labels.min()} to {labels.max()}"
         )
-    return Instances.from_labels(labels.astype(np.int32))
+    small = labels.size == 0 or labels.max() < 2**31
+    return labels.astype(np.int32 if small else np.int64)
 
 
 def label_image_16bit(instances: Instances) -> NDArray[np.uint16]:

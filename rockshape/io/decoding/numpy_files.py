@@ -31,8 +31,12 @@ def load_npy(file: "InputFile") -> NDArray[np.generic]:
         return _array(file, io.BytesIO(file.data))
 
 
-def load_npz(file: "InputFile", keys: Collection[str]) -> NDArray[np.generic]:
+def load_npz(
+    file: "InputFile", keys: Collection[str], *, or_the_only: bool = False
+) -> NDArray[np.generic]:
     """Array of an .npz file under the first of the keys that it has; others are not read.
+
+    With or_the_only it is the only array of the file, whatever its key.
 
     Raises: InputError where it has none of the keys, more values than the file may have or pickled
     objects.
@@ -40,6 +44,8 @@ def load_npz(file: "InputFile", keys: Collection[str]) -> NDArray[np.generic]:
     with _unpickled(file), zipfile.ZipFile(io.BytesIO(file.data)) as members:
         names = [name.removesuffix(".npy") for name in members.namelist()]
         key = next((key for key in keys if key in names), None)
+        if or_the_only and len(names) == 1:
+            key = names[0]
         if key is None:
             found = ", ".join(names) or "nothing"
             raise InputError(f"{file.path}: expected the key {' or '.join(keys)}, found {found}")

@@ -3,7 +3,7 @@
 import io
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +27,7 @@ def read_picture(file: "InputFile", *formats: str) -> ImageContent:
     A palette becomes its colours. Raises: InputError for more pixels than the file may have, and
     whatever Pillow does for a damaged file.
     """
-    with _opened(file, formats) as picture:
+    with open_picture(file, io.BytesIO(file.data), formats) as picture:
         orientation = _orientation(picture)
         picture.load()
         pixels = _native(picture.convert("RGB") if picture.mode in COLOURS else picture)
@@ -40,7 +40,7 @@ def read_numbers(file: "InputFile", *formats: str, bits: int = 8) -> NDArray[Any
     Colours whose channels are equal and opaque are as good as grey.
     Raises: InputError for any other colours.
     """
-    with _opened(file, formats) as picture:
+    with open_picture(file, io.BytesIO(file.data), formats) as picture:
         orientation = _orientation(picture)
         picture.load()
         mode = picture.mode
@@ -85,11 +85,13 @@ def _orientation(picture: Image.Image) -> int:
 
 
 @contextmanager
-def _opened(file: "InputFile", formats: tuple[str, ...]) -> Iterator[Image.Image]:
-    """ImageContent whose size is checked, without Pillow's own limit, which is not the user's."""
+def open_picture(
+    file: "InputFile", stream: IO[bytes], formats: tuple[str, ...]
+) -> Iterator[Image.Image]:
+    """Picture whose size is checked, without Pillow's own limit, which is not the user's."""
     limit, Image.MAX_IMAGE_PIXELS = Image.MAX_IMAGE_PIXELS, None
     try:
-        with Image.open(io.BytesIO(file.data), formats=formats) as picture:
+        with Image.open(stream, formats=formats) as picture:
             file.check_shape((picture.height, picture.width, len(picture.getbands())))
             yield picture
     finally:

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 TIFF_MAGIC = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 WHITE_IS_ZERO, RGB, PALETTE, YCBCR = 0, 2, 3, 6  # photometric interpretations
 JPEGS = (6, 7)  # compressions
+LOSSY = (*JPEGS, 33003, 33005, 34712, 34892, 50001, 50002)  # and JPEG 2000, WebP and JPEG XL
 SEPARATE_PLANES = 2  # planar configuration
 NO_DATA = 42113  # tag
 REDUCED, MASK = 1, 4  # bits of NewSubfileType: an overview or thumbnail, a transparency mask
@@ -69,9 +70,17 @@ def read_tiff(file: "InputFile") -> TiffImage:
 
 
 def read_stack(file: "InputFile") -> list[NDArray[Any]]:
-    """Stored numbers (rows, cols) of every page of a TIFF, turned as the tags say."""
+    """Stored numbers of every page of a TIFF, turned as the tags say.
+
+    Raises: InputError for lossy compression, which changes numbers.
+    """
     with _opened(file) as (tiff, pages):
         page, whole = pages[0], tiff.series[0]
+        if any(each.compression in LOSSY for each in pages):
+            raise InputError(
+                f"{file.path}: expected numbers stored without loss, "
+                f"found TIFF compression {page.compression!r}"
+            )
         if len(pages) == 1 and whole.size > page.size:  # ImageJ's stacks of one directory
             file.check_shape((whole.size // page.size, *page.shape), item_bytes=_item_bytes(page))
             return [

@@ -1,4 +1,4 @@
-"""NumPy label images."""
+"""NumPy label images and stacks of masks."""
 
 from typing import TYPE_CHECKING
 
@@ -11,15 +11,19 @@ if TYPE_CHECKING:
     from rockshape.rock.instances import Instances
 
 
-def read_npy(file: "InputFile", _: ImageInfo) -> "Instances":
-    """Instances of an integer array (rows, cols). Raises: InputError for any other array."""
-    return instances_of(file, load_npy(file))
+def read_npy(file: "InputFile", info: ImageInfo) -> "Instances":
+    """Instances of whole numbers (rows, cols), or of masks (n, rows, cols) or (rows, cols, n).
+
+    Raises: InputError for any other array.
+    """
+    return instances_of(file, load_npy(file), info)
 
 
 FORMAT = LabelFormat(
     name="NPY",
     suffixes=(".npy",),
-    summary="array (rows, cols) of whole numbers, a rock's id in each of its pixels",
+    summary="array (rows, cols) of whole numbers, a rock's id in each of its pixels; or a stack "
+    "(n, rows, cols) of masks, which may overlap",
     sniff=magic(NPY_MAGIC),
     read=read_npy,
 )

@@ -11,9 +11,12 @@ if TYPE_CHECKING:
     from rockshape.rock.instances import Instances
 
 
-def read_png(file: "InputFile", _: ImageInfo) -> "Instances":
-    """Instances of a grey PNG. Raises: InputError where it is no label image."""
-    return instances_of(file, decode_picture(file))
+def read_png(file: "InputFile", info: ImageInfo) -> "Instances":
+    """Instances of a grey PNG of any depth, or of the indices of one with a palette.
+
+    Raises: InputError where it is no label image.
+    """
+    return instances_of(file, decode_picture(file), info)
 
 
 def write_png(instances: "Instances") -> bytes:
@@ -24,7 +27,8 @@ def write_png(instances: "Instances") -> bytes:
 FORMAT = LabelFormat(
     name="PNG",
     suffixes=(".png",),
-    summary="grey of 8 or 16 bits, a rock's id in each of its pixels, 0 elsewhere",
+    summary="grey of 1 to 16 bits or palette indices, a rock's id in each of its pixels, 0 "
+    "elsewhere; or one mask, each piece a rock",
     sniff=magic(PNG_MAGIC),
     read=read_png,
     write=write_png,

@@ -178,7 +178,7 @@ def test_the_packages_own_formats_are_told_apart() -> None:
         for each in registry.own:
             assert each.kind == registry.kind
             assert each.readable or each.writable
-            assert each.suffixes
+            assert each.suffixes or each.folder
             assert all(suffix == suffix.lower() and suffix[0] == "." for suffix in each.suffixes)
     assert {each.name for each in known_formats()} >= {
         each.name for each in (*IMAGES.own, *RANGES.own)

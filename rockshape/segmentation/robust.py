@@ -30,7 +30,7 @@ def segment_both(observation: Observation) -> Segmentation:
     signal = heights_over(observation, ground)
     by_range = _by_range(observation, ground, signal)
     labels = find_by_image(observation.image, signal, by_range)
-    outlines, moved = _at_edges(observation, labels, signal)
+    outlines, moved = _at_edges(observation, labels, signal, ground)
     return _result(
         observation,
         moved,
@@ -66,7 +66,7 @@ def segment_by_image(observation: Observation) -> Segmentation:
     ground = ground_among_rocks(observation)
     nothing = np.zeros(observation.image.shape, dtype=np.int32)
     labels = find_by_image(observation.image, None, nothing)
-    outlines, moved = _at_edges(observation, labels, None)
+    outlines, moved = _at_edges(observation, labels, None, None)
     return _result(observation, moved, ground=ground, signal=None, outlines=outlines, from_range=0)
 
 
@@ -120,13 +120,14 @@ def _by_range(
 
 
 def _at_edges(
-    observation: Observation, labels: Labels, signal: HeightSignal | None
+    observation: Observation, labels: Labels, signal: HeightSignal | None, ground: Ground | None
 ) -> tuple[dict[int, SnappedOutline], Labels]:
     """Outlines moved to the image's edges, unless range is finer than any matcher's."""
     if signal is not None and signal.fine:
         return {}, labels
     texture = texture_of(observation.image)
-    return snapped(observation.image, labels, signal, texture=texture)
+    window_px = 1 if ground is None or ground.noise is None else ground.noise.window_px
+    return snapped(observation.image, labels, signal, texture=texture, window_px=window_px)
 
 
 def find_by_range(signal: HeightSignal, ground: Ground) -> Labels:

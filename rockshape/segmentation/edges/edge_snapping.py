@@ -23,7 +23,7 @@ from rockshape.segmentation.edges.shortest_path import closed_paths
 REACH_PX = 6.0  # how far an edge may lie from the outline
 LANE_PX = 0.5
 BLUR_PX = 0.8  # of the image, before its edges are taken
-ROUND_PX = 4.5  # of the outline along itself, before its normals are taken; does not shrink it
+ROUND_PX = 4.5  # least smoothing of the outline along itself; does not shrink it
 STRONGEST = 12.0  # edges above this many of the texture's standard deviations are all alike
 BEND = 0.35  # cost of moving by a lane from one pixel of the outline to the next
 CLEAR = 2.5  # edges of this strength tell how far range is off
@@ -50,17 +50,26 @@ class _Ring:
     held: NDArray[np.bool_]  # (n,), on the frame's border, where nothing can be moved
 
 
-def snap(image: Singles, labels: NDArray[np.int32], *, texture: float) -> dict[int, SnappedOutline]:
+def snap(
+    image: Singles, labels: NDArray[np.int32], *, texture: float, window_px: int = 1
+) -> dict[int, SnappedOutline]:
     """Outlines of the labels (rows, cols), moved to the image's edges, by number.
 
     image is (rows, cols) from 0 to 1, texture the standard deviation of its logarithm on bare
-    ground. The cost of a path is, at each pixel of it, its distance from range's outline over the
-    spread of those distances, squared and halved, less the edge's strength in texture's standard
-    deviations, up to 12; a first run without the distances gives their middle and spread. Empty
-    where these show that the outlines are on the image's edges already.
+    ground. window_px is the side of the window over which errors of range correlate: what is
+    shorter along an outline is the matcher's and is smoothed away first.
+
+    The cost of a path is, at each pixel of it, its distance from range's outline over the spread of
+    those distances, squared and halved, less the edge's strength in texture's standard deviations,
+    up to 12; a first run without the distances gives their middle and spread. Empty where these
+    show that the outlines are on the image's edges already.
     """
     light = _light(image)
-    tried = [_ring(light, mask, number, texture) for number, mask in _masks(labels)]
+    smooth_px = max(ROUND_PX, float(window_px))
+    tried = [
+        _ring(light, mask, number, texture=texture, smooth_px=smooth_px)
+        for number, mask in _masks(labels)
+    ]
     rings = [ring for ring in tried if ring is not None]
     if not rings:
         return {}
@@ -105,7 +114,12 @@ def _masks(labels: NDArray[np.int32]) -> list[tuple[int, tuple[NDArray[np.bool_]
 
 
 def _ring(
-    light: Singles, mask: tuple[NDArray[np.bool_], int, int], number: int, texture: float
+    light: Singles,
+    mask: tuple[NDArray[np.bool_], int, int],
+    number: int,
+    *,
+    texture: float,
+    smooth_px: float,
 ) -> _Ring | None:
     part, top, left = mask
     padded = cv2.copyMakeBorder(part.astype(np.uint8), 1, 1, 1, 1, cv2.BORDER_CONSTANT)
@@ -116,7 +130,7 @@ def _ring(
     if signed_area(contour) < 0:
         contour = contour[::-1]
     steps = max(8, round(outline_length(contour)))
-    smooth = smooth_evenly(contour, sigma=ROUND_PX, count=steps)
+    smooth = smooth_evenly(contour, sigma=smooth_px, count=steps)
     ahead = np.roll(smooth, -1, axis=0) - np.roll(smooth, 1, axis=0)
     length = np.maximum(np.linalg.norm(ahead, axis=1, keepdims=True), 1e-9)
     normals = np.column_stack([ahead[:, 1], -ahead[:, 0]]) / length

@@ -24,13 +24,16 @@ def snapped(
     relief: HeightSignal | None,
     *,
     texture: float,
+    window_px: int,
 ) -> tuple[dict[int, SnappedOutline], NDArray[np.int32]]:
     """Outlines moved to the image's edges and the labels they enclose, nearer rocks over farther.
 
+    texture is that of `texture_of`, window_px the side of the window over which errors of range
+    correlate, 1 without range.
     Where range's outlines lie on the image's edges already, no outline is given and the labels are
     left as they are.
     """
-    outlines = snap(image, labels, texture=texture)
+    outlines = snap(image, labels, texture=texture, window_px=window_px)
     if not outlines:
         return {}, labels
     order = sorted(outlines)

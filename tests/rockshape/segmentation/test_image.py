@@ -84,6 +84,21 @@ def test_a_fattened_outline_comes_to_the_images_edge(rng: np.random.Generator) -
     assert abs(labels.sum() - np.pi * 30.3**2) < 0.01 * np.pi * 30.3**2
 
 
+def test_what_a_matcher_adds_within_its_window_is_smoothed_away(rng: np.random.Generator) -> None:
+    image = disc_image(0.4) * (1 + 0.02 * rng.standard_normal((120, 120))).astype(np.float32)
+    y, x = np.mgrid[:120, :120]
+    fat = np.hypot(x - 60.4, y - 60) <= 31
+    for turn in np.arange(0, 2 * np.pi, 0.35):  # windows of 9 px, 11 px apart
+        column, row = 60.4 + 32 * np.cos(turn), 60 + 32 * np.sin(turn)
+        fat |= np.maximum(np.abs(x - column), np.abs(y - row)) <= 4.5
+    roughness = []
+    for window_px in (1, 9):
+        ring = snap(image, fat.astype(np.int32), texture=0.02, window_px=window_px)[1].points_px
+        roughness.append(np.std(np.hypot(ring[:, 0] - 60.4, ring[:, 1] - 60)))
+    assert roughness[1] < 0.5 * roughness[0]
+    assert roughness[1] < 0.25  # half a lane
+
+
 def test_an_outline_on_the_edge_is_left_alone() -> None:
     truth = solids.disc(30.0).astype(np.int32)
     image = np.where(truth > 0, 0.3, 0.6).astype(np.float32)

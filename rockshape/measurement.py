@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from rockshape.ellipse.direct import Ellipse
 from rockshape.ellipsoid import Ellipsoid
-from rockshape.measures import Measure, Reading
+from rockshape.measures import Measure, Reading, Reason
 from rockshape.method import Method, find_method
 from rockshape.observation import Observation
 from rockshape.outline.descriptors import Descriptors
@@ -72,6 +72,8 @@ class Rock:
     def reason(self) -> str:
         """Why values are NaN, each reason said once; empty where none is."""
         reasons = [reading.reason for reading in self.readings.values() if reading.reason]
+        if self.descriptors is not None and self.descriptors.unresolved:
+            reasons.append(Reason.TOO_SMALL)
         return "; ".join(dict.fromkeys(reasons))
 
     def __getattr__(self, name: str) -> Reading:

@@ -11,7 +11,7 @@ from rockshape.measurement import Measurement, Rock
 from rockshape.measures import Reading
 from rockshape.method import Fits, Method, find_method
 from rockshape.observation import Observation, locate_camera
-from rockshape.outline.descriptors import Descriptors, describe_outline, describe_smooth
+from rockshape.outline.descriptors import UNRESOLVED, Descriptors, describe_edge, describe_outline
 from rockshape.rock.blas_threads import one_blas_thread
 from rockshape.rock.instances import Instance, Instances, Window
 from rockshape.rock.view import RockView
@@ -170,8 +170,11 @@ def _rock(
 
 def _describe(view: RockView) -> Descriptors:
     """Descriptors of the outline; only a pixel edge has a staircase that lengthens it."""
-    describe = describe_outline if view.has_subpixel_edge else describe_smooth
-    return describe(view.smooth_outline_px)
+    if not view.resolved:
+        return UNRESOLVED
+    if view.has_subpixel_edge:
+        return describe_outline(view.smooth_outline_px)
+    return describe_edge(view.edge_px)
 
 
 def _view_rock(scene: _Scene, part: Instance) -> RockView:

@@ -60,7 +60,7 @@ with open(sys.argv[2], "w", newline="") as file:
     "the measures themselves, 19 columns": READ
     + """
 import dataclasses
-from rockshape.outline.descriptors import describe_smooth
+from rockshape.outline.descriptors import describe_edge
 from rockshape.measures import angularity_2d, axis_ratio, ellipse_error, roundness, sphericity_2d
 from rockshape.rock.instances import Instances
 from rockshape.rock.view import RockView
@@ -72,7 +72,7 @@ with open(sys.argv[2], "w", newline="") as file:
         rows, cols = patch.window
         rock = RockView(mask=patch.mask, corner=(rows.start, cols.start))
         values = [measure.read(rock).value for measure in measures]
-        described = dataclasses.astuple(describe_smooth(rock.smooth_outline_px))
+        described = dataclasses.astuple(describe_edge(rock.edge_px))
         writer.writerow([patch.id, *values, *described])
 """,
     "rockshape.measure, both methods": READ

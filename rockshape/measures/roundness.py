@@ -15,10 +15,10 @@ Blind to: how many corners there are, dents, and corners that turn by less than 
 
 Smallest size: 60 px for a rock of few corners. Corners that are many are small, and read too
 round: a rock of some eleven corners wants 200 px. docs/resolution.md has the correlation with the
-truth, bias and error by size, beside fast_rs's (`python benchmarks/run.py roundness`).
+truth, bias and error by size, beside fast_rs's (`python benchmarks/run.py roundness`). The gate is
+the rock's width, for corners lie across it however long the rock is.
 
-Degenerate: 1 where there is no corner. Refuses rocks that the frame cuts, less than 4 px wide or
-with an outline of fewer than 40 px.
+Degenerate: 1 where there is no corner. Refuses rocks that the frame cuts or less than 12 px wide.
 
 Source: Wadell (1932), Volume, shape, and roundness of rock particles.
 """
@@ -34,8 +34,13 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+MIN_WIDTH_PX = 12.0  # least Feret diameter
+
+
 def _read_robust(rock: RockView) -> float | Reason:
-    return wadell_roundness(rock.smooth_outline_px) if rock.resolved else Reason.TOO_SMALL
+    if not rock.feret_px[0] >= MIN_WIDTH_PX:
+        return Reason.TOO_SMALL
+    return wadell_roundness(rock.smooth_outline_px)
 
 
 def _draw() -> "Figure":

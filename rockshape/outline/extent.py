@@ -4,6 +4,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+MIN_WIDTH_PX = 4.0  # least Feret diameter below which pixels are what an outline's shape is made of
+
 
 def convex_hull(outline: NDArray[np.float64]) -> NDArray[np.float64]:
     """Those of points (n, 2) that are corners of their convex hull, (k, 2), in order round it.

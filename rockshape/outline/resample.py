@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 from rockshape.outline.trace import signed_area
 
 PIXEL_SIGMA = 1.0  # px: takes the staircase, leaves the corners
+LENGTH_SIGMA = 0.4  # sqrt(px), of the square root of the radius: takes what lengthens it too
 FORM_POINTS = 100
 FORM_SIGMA = 0.012  # of the outline's length
 
@@ -73,6 +74,19 @@ def pixel_smooth(edge_px: NDArray[np.float64]) -> NDArray[np.float64]:
     # round a pixel edge one passes up to sqrt(2) sides' middles a pixel of length
     count = max(FORM_POINTS, round(outline_length(ring)))
     return smooth_evenly(ring, sigma=PIXEL_SIGMA, count=count)
+
+
+def length_outline(edge_px: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A pixel edge (n, 2) without the ripple that lengthens it, at (m, 2) points a pixel apart.
+
+    Smoothed by 0.4 sqrt(R px), R the radius of the disc of equal area, and at least by 1 px. Steps
+    of a staircase are up to about sqrt(R) long where the edge of a disc runs along the pixels, so
+    that the excess length vanishes as R grows, while corners are cut by a falling share of R.
+    """
+    ring = canonical(edge_px)
+    radius = np.sqrt(abs(signed_area(ring)) / np.pi)
+    sigma = max(PIXEL_SIGMA, LENGTH_SIGMA * float(np.sqrt(radius)))
+    return smooth_evenly(ring, sigma=sigma, count=max(FORM_POINTS, round(outline_length(ring))))
 
 
 def pixel_steps(outline_px: NDArray[np.float64]) -> NDArray[np.float64]:

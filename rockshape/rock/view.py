@@ -14,7 +14,7 @@ from rockshape.ellipse.direct import Ellipse, fit_ellipse
 from rockshape.ellipse.moments import moment_ellipse
 from rockshape.ellipsoid import Ellipsoid, EllipsoidFit, Resting, fit_ellipsoid, fit_held_ellipsoid
 from rockshape.outline.edge import edge_of
-from rockshape.outline.extent import feret_diameters
+from rockshape.outline.extent import MIN_WIDTH_PX, feret_diameters
 from rockshape.outline.resample import PIXEL_SIGMA, form_outline, pixel_smooth, pixel_steps
 from rockshape.outline.trace import trace_outline
 from rockshape.rock.visibility import touches_border
@@ -23,7 +23,6 @@ from rockshape.surface import ResidualCurvature, Surface, fit_surface, measure_r
 if TYPE_CHECKING:
     from rockshape.ground import Ground, NoiseModel
 
-MIN_WIDTH_PX = 4.0
 NOISE_DRAWS = 4  # of errors like the range's, to tell what they alone would make of a surface
 
 

@@ -67,7 +67,8 @@ def visible_fraction(
 
 def _reach(centre: float, half: float, size: int) -> tuple[int, int]:
     """First and past-the-last pixel within half of the centre and within the frame."""
-    return max(0, int(np.floor(centre - half))), min(size, int(np.ceil(centre + half)) + 1)
+    first = min(size, max(0, int(np.floor(centre - half))))
+    return first, max(first, min(size, int(np.ceil(centre + half)) + 1))
 
 
 def _nearer(

@@ -5,6 +5,7 @@ import pytest
 from matplotlib.path import Path
 from scipy.spatial import Delaunay
 
+import rockshape
 from rockshape.outline.edge import trace_edge
 from rockshape.outline.resample import even_outline, pixel_smooth
 from rockshape.outline.roundness import inscribed_radius, smooth_curvature, wadell_roundness
@@ -146,3 +147,12 @@ def test_what_has_no_inside_has_no_roundness() -> None:
     assert np.isnan(wadell_roundness(np.ones((60, 2))))
     line = np.column_stack([np.r_[np.arange(50.0), np.arange(50.0, 0, -1)], np.zeros(100)])
     assert np.isnan(wadell_roundness(line))
+
+
+def test_a_rock_is_too_small_by_its_width_and_not_by_its_length() -> None:
+    labels = np.zeros((120, 130), dtype=np.int32)
+    labels[5:15, 10:120] = 1  # its outline is 240 px long
+    labels[40:60, 10:30] = 2
+    thin, wide = rockshape.measure(labels=labels)
+    assert thin.roundness.reason == rockshape.Reason.TOO_SMALL
+    assert wide.roundness.reason is None

@@ -7,13 +7,19 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+import pyarrow.parquet as pq
+from msgspec import Struct
 
 from validation.errors import InputError
+from validation.records.join import RecordKey
 from validation.scores.scoring import all_claims
+from validation.suite.decode import decode
 from validation.suite.registry import kind_of
 from validation.suite.suite import Suite, as_suite
 
 FORMAT = "rockshape validation run 2"
+MAX_CELLS = 10**8  # of the records
+_EXPECTED = "expected a run with scores.json and results.parquet"
 _ROCK = ["experiment", "series", "scene", "seed", "instance"]
 _TRUTH_TOLERANCE = 1e-6  # relative: truth goes through JSON and CSV, nothing else
 
@@ -34,29 +40,78 @@ def load_recorded(folder: Path) -> Recorded:
     Raises:
         InputError: the folder is no run, or one of another version.
     """
-    try:
-        document: Any = json.loads((folder / "scores.json").read_text(encoding="utf-8"))
-        records = pd.read_parquet(folder / "results.parquet")
-    except (OSError, ValueError) as error:
-        raise InputError(
-            f"{folder}: expected a run with scores.json and results.parquet, found: {error}"
-        ) from error
+    document = _document(folder)
+    records = _records(folder)
     found = document.get("format") if isinstance(document, dict) else None
     if found != FORMAT:
         raise InputError(f"{folder}: expected the format {FORMAT!r}, found {found!r}")
+    where = f"{folder}: scores.json"
     spec = document.get("spec")
     if not isinstance(spec, dict):
-        raise InputError(f"{folder}: scores.json: expected the suite as spec, found {spec!r}")
-    suite = as_suite(spec, where=f"{folder}: scores.json: spec")
-    gates = {_gate_name(gate): bool(gate["passed"]) for gate in document.get("gates", ())}
+        raise InputError(f"{where}: expected the suite as spec, found {type(spec).__name__}")
+    suite = as_suite(spec, where=f"{where}: spec")
+    results = decode(document.get("gates", []), list[_GateResult], where=where, path="gates")
+    _check_columns(folder, records, suite)
     names = {each.name: kind_of(each).name for each in suite.experiments}
-    records = records.assign(kind=records["experiment"].map(names))
-    return Recorded(folder=folder, suite=suite, records=records, gates=gates)
+    return Recorded(
+        folder=folder,
+        suite=suite,
+        records=records.assign(kind=records["experiment"].map(names)),
+        gates={gate.name: gate.passed for gate in results},
+    )
 
 
-def _gate_name(gate: dict[str, Any]) -> str:
-    relation, bound = ("≥", gate["at_least"]) if gate["at_most"] is None else ("≤", gate["at_most"])
-    return f"{gate['score']} {relation} {bound}"
+class _GateResult(Struct):
+    """Gate of scores.json; its other keys do not matter here."""
+
+    score: str
+    at_least: float | None
+    at_most: float | None
+    passed: bool
+
+    @property
+    def name(self) -> str:
+        if self.at_most is None:
+            return f"{self.score} ≥ {self.at_least}"
+        return f"{self.score} ≤ {self.at_most}"
+
+
+def _document(folder: Path) -> Any:
+    try:
+        return json.loads((folder / "scores.json").read_text(encoding="utf-8-sig"))
+    except (OSError, ValueError, RecursionError) as error:
+        raise InputError(f"{folder}: {_EXPECTED}, found: {error}") from error
+
+
+def _records(folder: Path) -> pd.DataFrame:
+    file = folder / "results.parquet"
+    try:
+        head = pq.read_metadata(file)
+        cells = head.num_rows * head.num_columns
+        records = pd.read_parquet(file) if cells <= MAX_CELLS else None
+    except Exception as error:  # of the libraries, for damaged files, any
+        raise InputError(f"{folder}: {_EXPECTED}, found: {error}") from error
+    if records is None:
+        raise InputError(f"{file}: expected at most {MAX_CELLS} values, found {cells}")
+    return records
+
+
+def _check_columns(folder: Path, records: pd.DataFrame, suite: Suite) -> None:
+    """Refuse records without the columns that every run has and those that the suite judges."""
+    claims = all_claims(suite)
+    needed = [
+        *(name for name in RecordKey.__dataclass_fields__ if name != "kind"),
+        *("instance", "rock", "status", "eligible"),
+        *(claim.truth for claim in claims),
+        *(claim.measure for claim in claims),
+    ]
+    missing = next((name for name in needed if name not in records), None)
+    if missing is not None:
+        raise InputError(f"{folder}: results.parquet: expected the column {missing}, found none")
+    for name in ("scene", "seed", "view", *(claim.measure for claim in claims)):
+        kind = records[name].dtype
+        if not pd.api.types.is_numeric_dtype(kind):
+            raise InputError(f"{folder}: results.parquet: {name}: expected numbers, found {kind}")
 
 
 def check_paired(old: Recorded, new: Recorded) -> None:
@@ -69,6 +124,8 @@ def check_paired(old: Recorded, new: Recorded) -> None:
     if not common:
         raise InputError(f"{new.folder}: expected an experiment of {old.folder}, found none")
     before, after = (_rocks(run, common) for run in (old, new))
+    if before.index.has_duplicates or after.index.has_duplicates:
+        raise InputError(f"{new.folder}: expected each rock once, found some again")
     if not before.index.equals(after.index):
         raise InputError(
             f"{new.folder}: expected the {len(before)} rocks of {old.folder}, found "

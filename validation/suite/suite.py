@@ -80,7 +80,7 @@ def as_suite(table: Mapping[str, Any], *, where: str) -> Suite:
 def _parse(text: str, *, where: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+    except (ValueError, RecursionError) as error:
         raise InputError(f"{where}: expected TOML, found {error}") from error
 
 

@@ -57,7 +57,7 @@ def load_spec(path: Path) -> SceneSpec:
         raise SpecError(f"{path}: expected a TOML file, found {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise SpecError(f"{path}: expected a TOML file, found bytes that are no text") from error
-    except tomllib.TOMLDecodeError as error:
+    except (ValueError, RecursionError) as error:
         raise SpecError(f"{path}: expected TOML, found {error}") from error
     return convert_spec(table, where=str(path))
 

@@ -1,6 +1,7 @@
 """Comparing runs: equal runs are equal, what is spoilt is found, what does not pair is refused."""
 
 import json
+import shutil
 from pathlib import Path
 
 import msgspec
@@ -162,3 +163,49 @@ def test_what_does_not_pair_is_refused(old, good, folder_of, tmp_path, capsys) -
     (tmp_path / "scores.json").write_text(json.dumps({"format": "other"}), encoding="utf-8")
     (tmp_path / "results.parquet").write_bytes((old / "results.parquet").read_bytes())
     assert "other" in refused(tmp_path, old, capsys)
+
+
+def _spoilt(folder: Path, tmp_path: Path, **document: object) -> Path:
+    """Copy of a run whose scores.json has other values for some keys."""
+    copy = tmp_path / f"copy{len(list(tmp_path.iterdir()))}"
+    shutil.copytree(folder, copy)
+    held = json.loads((copy / "scores.json").read_text(encoding="utf-8"))
+    (copy / "scores.json").write_text(json.dumps({**held, **document}), encoding="utf-8")
+    return copy
+
+
+def test_damaged_runs_and_other_columns_are_refused_in_one_line(
+    old, good, claims, tmp_path, capsys
+) -> None:
+    damaged = [
+        _spoilt(old, tmp_path, gates=3),
+        _spoilt(old, tmp_path, gates=[{"score": "a"}]),
+        _spoilt(old, tmp_path, spec=[]),
+        _spoilt(old, tmp_path, format=None),
+    ]
+    for content in (b"", b"\xff", b"[" * 10**5, b"9" * 5000, b'{"format": NaN}'):
+        damaged.append(_spoilt(old, tmp_path))
+        (damaged[-1] / "scores.json").write_bytes(content)
+    whole = (old / "results.parquet").read_bytes()
+    for content in (b"", b"PAR1", whole[:-9], whole[100:], whole[:-200] + whole[-100:]):
+        damaged.append(_spoilt(old, tmp_path))
+        (damaged[-1] / "results.parquet").write_bytes(content)
+    measure = claims[0].measure
+    for records in (
+        good.drop(columns=measure),
+        good.drop(columns="status"),
+        good.assign(**{measure: "text"}),
+        good.assign(scene=good["scene"].astype(str)),
+        good.assign(instance="a"),
+        pd.concat([good, good]),
+        good.iloc[:0],
+    ):
+        damaged.append(_spoilt(old, tmp_path))
+        records.to_parquet(damaged[-1] / "results.parquet", index=False)
+    for folder in damaged:
+        for pair in ((old, folder), (folder, old)):
+            assert main(["validate", "compare", *map(str, pair)]) == 2, folder
+            said = capsys.readouterr()
+            assert said.out == ""
+            assert said.err.count("\n") == 1
+            assert len(said.err) <= 501

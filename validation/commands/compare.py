@@ -18,8 +18,16 @@ def compare_action(args: argparse.Namespace) -> int:
     if not margin >= 0:
         raise InputError(f"--margin: expected a number from 0, found {margin}")
     old, new = load_recorded(args.old), load_recorded(args.new)
-    check_paired(old, new)
-    changes = compare(old, new, margin=margin)
+    try:
+        check_paired(old, new)
+        changes = compare(old, new, margin=margin)
+    except InputError:
+        raise
+    except Exception as error:  # of records with values that no run writes
+        raise InputError(
+            f"{args.new}: expected records that can be scored beside those of {args.old}, "
+            f"found {type(error).__name__}: {error}"
+        ) from error
     fallen = failed_gates(old, new)
     print(comparison_markdown(changes, fallen), end="")
     return int(bool(fallen) or any(change.verdict in REGRESSIONS for change in changes))

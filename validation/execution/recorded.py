@@ -20,6 +20,7 @@ from validation.suite.suite import Suite, as_suite
 FORMAT = "rockshape validation run 2"
 MAX_CELLS = 10**8  # of the records
 _EXPECTED = "expected a run with scores.json and results.parquet"
+_OF_A_ROW = ("instance", "rock", "status", "eligible")
 _ROCK = ["experiment", "series", "scene", "seed", "instance"]
 _TRUTH_TOLERANCE = 1e-6  # relative: truth goes through JSON and CSV, nothing else
 
@@ -99,9 +100,10 @@ def _records(folder: Path) -> pd.DataFrame:
 def _check_columns(folder: Path, records: pd.DataFrame, suite: Suite) -> None:
     """Refuse records without the columns that every run has and those that the suite judges."""
     claims = all_claims(suite)
+    places = [name for name in RecordKey.__dataclass_fields__ if name != "kind"]
     needed = [
-        *(name for name in RecordKey.__dataclass_fields__ if name != "kind"),
-        *("instance", "rock", "status", "eligible"),
+        *places,
+        *_OF_A_ROW,
         *(claim.truth for claim in claims),
         *(claim.measure for claim in claims),
     ]
@@ -112,6 +114,8 @@ def _check_columns(folder: Path, records: pd.DataFrame, suite: Suite) -> None:
         kind = records[name].dtype
         if not pd.api.types.is_numeric_dtype(kind):
             raise InputError(f"{folder}: results.parquet: {name}: expected numbers, found {kind}")
+    if records.duplicated([*places, "instance", "rock"]).any():
+        raise InputError(f"{folder}: results.parquet: expected each rock once, found some again")
 
 
 def check_paired(old: Recorded, new: Recorded) -> None:
@@ -124,8 +128,6 @@ def check_paired(old: Recorded, new: Recorded) -> None:
     if not common:
         raise InputError(f"{new.folder}: expected an experiment of {old.folder}, found none")
     before, after = (_rocks(run, common) for run in (old, new))
-    if before.index.has_duplicates or after.index.has_duplicates:
-        raise InputError(f"{new.folder}: expected each rock once, found some again")
     if not before.index.equals(after.index):
         raise InputError(
             f"{new.folder}: expected the {len(before)} rocks of {old.folder}, found "

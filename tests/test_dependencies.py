@@ -15,8 +15,6 @@ FOLDERS = ("tests", "tools", "benchmarks")
 OWN = {*PACKAGES, *FOLDERS, *(path.stem for path in (ROOT / "benchmarks").iterdir())}
 # a plug-in for pytest is only ever imported by pytest
 BROUGHT_BY_THE_HOST = {"pytest"}
-# what another library imports where it is installed: tifffile's decompression
-BY_A_LIBRARY = {"imagecodecs"}
 # of the dev extra, what is run as a command or is there for the type checker
 COMMANDS = {
     "basedpyright",
@@ -69,7 +67,7 @@ def test_what_the_packages_import_is_declared(by_the_packages):
 def test_what_is_declared_is_imported(by_the_packages):
     assert by_the_packages >= REQUIRED
     for extra in EXTRAS.keys() - {"dev"}:
-        assert by_the_packages | BY_A_LIBRARY >= EXTRAS[extra], extra
+        assert by_the_packages >= EXTRAS[extra], extra
 
 
 def test_the_dev_extra_is_what_tests_and_tools_use_beside(by_the_packages):
@@ -77,7 +75,7 @@ def test_the_dev_extra_is_what_tests_and_tools_use_beside(by_the_packages):
     optional = set().union(*EXTRAS.values())
     assert others - REQUIRED - optional == set()
     # the scheduler of the extra cluster is imported by the package, for a test
-    assert EXTRAS["dev"] - COMMANDS - BY_A_LIBRARY - others - by_the_packages == set()
+    assert EXTRAS["dev"] - COMMANDS - others - by_the_packages == set()
 
 
 def test_every_dependency_has_a_lower_bound_that_names_one_release():

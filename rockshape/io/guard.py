@@ -1,6 +1,7 @@
 """Guard around readers: other libraries' logs kept quiet, any failure one InputError."""
 
 import logging
+import os
 import sys
 import warnings
 from collections.abc import Callable, Iterator
@@ -8,7 +9,15 @@ from contextlib import ExitStack, contextmanager
 
 from rockshape.errors import InputError, one_line
 
-LIBRARIES = ("PIL", "tifffile", "trimesh", "pdr", "imagecodecs", "matplotlib")  # their loggers
+LIBRARIES = (
+    "PIL",
+    "tifffile",
+    "trimesh",
+    "pdr",
+    "roifile",
+    "imagecodecs",
+    "matplotlib",
+)  # their loggers
 SILENT = logging.CRITICAL + 1
 
 
@@ -43,6 +52,27 @@ def quiet() -> Iterator[None]:
             restored.callback(level.setLogLevel, level.getLogLevel())
             level.setLogLevel(level.LOG_LEVEL_SILENT)
         yield
+
+
+@contextmanager
+def quiet_libraries_in_c() -> Iterator[None]:
+    """Silence of what C libraries write to the standard error of the process, libtiff's warnings.
+
+    What other threads write there meanwhile is lost too, so this is for a decoder's call alone.
+    """
+    try:
+        kept = os.dup(2)
+    except OSError:  # the process has no standard error
+        yield
+        return
+    try:
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, 2)
+        os.close(nowhere)
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
 
 
 def reason_of(error: BaseException) -> str:

@@ -28,9 +28,9 @@ def read_picture(file: "InputFile", *formats: str) -> ImageContent:
     whatever Pillow does for a damaged file.
     """
     with open_picture(file, io.BytesIO(file.data), formats) as picture:
-        orientation = _orientation(picture)
+        orientation = orientation_left(picture)
         picture.load()
-        pixels = _native(picture.convert("RGB") if picture.mode in COLOURS else picture)
+        pixels = native_pixels(picture.convert("RGB") if picture.mode in COLOURS else picture)
     return ImageContent(turn(pixels, orientation), orientation=orientation)
 
 
@@ -41,10 +41,10 @@ def read_numbers(file: "InputFile", *formats: str, bits: int = 8) -> NDArray[Any
     Raises: InputError for any other colours.
     """
     with open_picture(file, io.BytesIO(file.data), formats) as picture:
-        orientation = _orientation(picture)
+        orientation = orientation_left(picture)
         picture.load()
         mode = picture.mode
-        numbers = _native(picture.getchannel("P") if mode == "PA" else picture)
+        numbers = native_pixels(picture.getchannel("P") if mode == "PA" else picture)
     if mode == "1":
         numbers = numbers.astype(np.uint8)
     elif mode == "L":
@@ -67,7 +67,7 @@ def _one_channel(file: "InputFile", numbers: NDArray[Any], *, opaque: bool) -> N
     return numbers[..., 0]
 
 
-def _native(picture: Image.Image) -> NDArray[Any]:
+def native_pixels(picture: Image.Image) -> NDArray[Any]:
     """Pixels in the machine's byte order; 16 bits that Pillow holds in 32 are 16 again."""
     if picture.mode == "1":
         return np.asarray(picture)
@@ -79,7 +79,8 @@ def _native(picture: Image.Image) -> NDArray[Any]:
     return pixels
 
 
-def _orientation(picture: Image.Image) -> int:
+def orientation_left(picture: Image.Image) -> int:
+    """Orientation by which a picture has still to be turned: Pillow turns TIFF itself."""
     found = picture.getexif().get(TAG, UPRIGHT)
     return found if found in range(1, 9) else UPRIGHT
 

@@ -1,7 +1,8 @@
 """TIFF pages: the numbers that a file stores, and the tags that say what they mean.
 
-tifffile reads every layout and type; it needs imagecodecs, the extra `tiff`, for the compressions
-that neither it nor Pillow has.
+tifffile reads every layout and type that is not compressed or by Deflate; other compressions and
+packed bits are libtiff's, which Pillow and OpenCV bring. imagecodecs, which tifffile would use, is
+not asked: its decoders crash the process on damaged data.
 """
 
 import io
@@ -14,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.errors import InputError
-from rockshape.io.decoding.orientation import TAG, UPRIGHT, turn
+from rockshape.io.decoding.libtiff import by_libtiff, orientation_of
+from rockshape.io.decoding.orientation import UPRIGHT, turn
 from rockshape.io.decoding.tiff_directories import check_directories
 from rockshape.io.decoding.tiff_pixel_size import pixel_size_m
 
@@ -30,7 +32,7 @@ LOSSY = (*JPEGS, 33003, 33005, 34712, 34892, 50001, 50002)  # and JPEG 2000, Web
 SEPARATE_PLANES = 2  # planar configuration
 NO_DATA = 42113  # tag
 REDUCED, MASK = 1, 4  # bits of NewSubfileType: an overview or thumbnail, a transparency mask
-PILLOWS = {8: "LP", 16: "I"}  # first letters of the modes that Pillow reads without loss, by bits
+PLAIN = (1, 8, 32946)  # none and Deflate, which tifffile decodes by Python's own
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,12 +59,11 @@ def read_tiff(file: "InputFile") -> TiffImage:
             count = len(pages) if len(pages) != 1 else tiff.series[0].size // pages[0].size
             raise InputError(f"{file.path}: expected a TIFF of one page, found {count} pages")
         page = pages[0]
-        orientation = _orientation(page)
         return TiffImage(
-            values=turn(_numbers(file, page), orientation),
+            values=_numbers(file, page),
             photometric=_photometric(page),
             bits=_bits(page),
-            orientation=orientation,
+            orientation=orientation_of(page),
             pixel_size_m=pixel_size_m(page, tiff.imagej_metadata),
             colour_map=page.colormap,
             no_data=None if page.tags.valueof(NO_DATA) is None else float(page.nodata),
@@ -83,12 +84,11 @@ def read_stack(file: "InputFile") -> list[NDArray[Any]]:
             )
         if len(pages) == 1 and whole.size > page.size:  # ImageJ's stacks of one directory
             file.check_shape((whole.size // page.size, *page.shape), item_bytes=_item_bytes(page))
-            return [
-                turn(each, _orientation(page)) for each in whole.asarray().reshape(-1, *page.shape)
-            ]
+            slices = whole.asarray().reshape(-1, *page.shape)
+            return [turn(each, orientation_of(page)) for each in slices]
         total = (len(pages), page.imagelength, page.imagewidth)
         file.check_shape(total, item_bytes=_item_bytes(page))
-        return [turn(_numbers(file, each), _orientation(each)) for each in pages]
+        return [_numbers(file, each) for each in pages]
 
 
 @contextmanager
@@ -102,47 +102,29 @@ def _opened(file: "InputFile") -> "Iterator[tuple[TiffFile, list[TiffPage]]]":
 
 
 def _numbers(file: "InputFile", page: "TiffPage") -> NDArray[Any]:
+    """Stored numbers of a page, turned as its tag says."""
     shape = (page.imagelength, page.imagewidth, page.samplesperpixel)
     file.check_shape(shape, item_bytes=_item_bytes(page))
     if page.imagedepth > 1:
         raise InputError(
             f"{file.path}: expected a TIFF of one page, found {page.imagedepth} slices"
         )
-    try:
-        values = np.asarray(page.asarray())
-    except Exception as error:
-        if "imagecodecs" not in str(error):
-            raise
-        values = _without_codecs(file, page)
-    planes = values.ndim == 3 and page.planarconfig == SEPARATE_PLANES
-    return np.moveaxis(values, 0, -1) if planes else values
-
-
-def _without_codecs(file: "InputFile", page: "TiffPage") -> NDArray[Any]:
-    """Numbers of a compressed page by Pillow, where it keeps them as they are."""
-    from PIL import Image  # noqa: PLC0415 - few files need it
-
-    with Image.open(io.BytesIO(file.data), formats=("TIFF",)) as picture:
-        kept = picture.mode[0] in PILLOWS.get(_bits(page), "") and page.index == 0
-        if kept or (picture.mode == "RGB" and _bits(page) == 8):
-            values = np.array(picture)
-            inverted = kept and page.photometric == WHITE_IS_ZERO and _bits(page) == 8
-            return 255 - values if inverted else values
-    raise InputError(
-        f"{file.path}: TIFF compression {page.compression!r}: expected the package imagecodecs "
-        f"(pip install 'rockshape[tiff]'), found none"
-    )
+    if page.compression in PLAIN and _bits(page) in (1, 8, 16, 32, 64):
+        try:
+            values = np.asarray(page.asarray())
+        except Exception as error:
+            if "imagecodecs" not in str(error):  # a predictor that tifffile leaves to it
+                raise
+        else:
+            planes = values.ndim == 3 and page.planarconfig == SEPARATE_PLANES
+            return turn(np.moveaxis(values, 0, -1) if planes else values, orientation_of(page))
+    return by_libtiff(file, page)
 
 
 def _photometric(page: "TiffPage") -> int:
     """Photometric interpretation as decoded: YCbCr within JPEG has become RGB."""
     decoded = page.photometric == YCBCR and page.compression in JPEGS
     return RGB if decoded else int(page.photometric or WHITE_IS_ZERO)
-
-
-def _orientation(page: "TiffPage") -> int:
-    found = page.tags.valueof(TAG, default=UPRIGHT)
-    return int(found) if found in range(1, 9) else UPRIGHT
 
 
 def _bits(page: "TiffPage") -> int:

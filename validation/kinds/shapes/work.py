@@ -26,7 +26,7 @@ def views(unit: Unit[ShapesExperiment]) -> tuple[list[ViewCase], str]:
         case = ViewCase(
             place=RecordKey(experiment.name, "shapes", unit.series, unit.scene, seed, 0, ""),
             observation=Observation(image=image),
-            given=read_labels(folder / "labels.png", shape=image.shape).to_labels(),
+            given=read_labels(folder / "labels.png", shape=image.shape, pieces="keep").to_labels(),
             instances=read_instances(folder / "labels.png"),
             truth=read_shape_truth(folder / "truth.csv").assign(eligible=True),
             min_iou=MIN_IOU,

@@ -1,8 +1,11 @@
+from .api import make_bed as make_bed
+from .api import make_beds as make_beds
 from .api import make_scene as make_scene
 from .api import make_shapes as make_shapes
 from .arrays import DepthImage as DepthImage
 from .arrays import Image as Image
 from .arrays import LabelImage as LabelImage
+from .bed.bed import Bed as Bed
 from .camera.camera import Pose as Pose
 from .camera.camera import RenderCamera as RenderCamera
 from .errors import MissingBackendError as MissingBackendError
@@ -21,5 +24,7 @@ from .sensor.sensor import SensorInput as SensorInput
 from .sensor.sensor import register_sensor as register_sensor
 from .spec import SceneSpec as SceneSpec
 from .spec import load_spec as load_spec
+from .spec.bed import BedSpec as BedSpec
+from .spec.bed import load_bed_spec as load_bed_spec
 
 __version__: str

@@ -1,10 +1,14 @@
-"""Public functions: scenes and drawn shapes of known truth."""
+"""Public functions: scenes, gravel beds and drawn shapes of known truth."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Unpack
 
 import pandas as pd
 
+from synth.bed.bed import Bed
+from synth.bed.make import make_tile
+from synth.bed.options import BedOptions, BedSource, bed_spec_of
+from synth.bed.tiles import tiles
 from synth.errors import SpecError
 from synth.handle.options import SceneOptions, SpecSource, spec_of
 from synth.handle.scene import Scene
@@ -66,3 +70,45 @@ def make_shapes(
         seed=seed,
         jitter_rms_px=jitter_rms_px,
     )
+
+
+def make_bed(
+    spec: BedSource | None = None, *, index: int = 0, **options: Unpack[BedOptions]
+) -> Bed:
+    """Gravel bed seen from above: picture, labels, heights and the truth of each grain.
+
+    >>> bed = make_bed(seed=1, grains={"median_px": [15, 30]}, ground={"kinds": ["sand"]})
+
+    `spec` is a path to a TOML file, a `BedSpec` or a dict of its tables; without it every key has
+    its default. `index` is the tile's number in a set; any number will do. The options are keys
+    and tables of the specification and are laid over it.
+
+    Raises:
+        SpecError: an unknown option, key or value, named with the one that was probably meant.
+    """
+    if index < 0:
+        raise SpecError(f"index: expected 0 or more, found {index}")
+    return make_tile(bed_spec_of(spec, options, where="make_bed"), index)
+
+
+def make_beds(
+    spec: BedSource | None = None,
+    *,
+    start: int = 0,
+    jobs: int = 1,
+    **options: Unpack[BedOptions],
+) -> Iterator[Bed]:
+    """Tiles of a set in turn, without touching the disk: the first is number `start`.
+
+    There are `tiles` of them, a key of the specification. With several `jobs` processes make
+    them; the tiles and their order stay the same, and no more than a few wait in memory.
+
+    Raises:
+        SpecError: an unknown option, key or value, named with the one that was probably meant.
+    """
+    if start < 0:
+        raise SpecError(f"start: expected 0 or more, found {start}")
+    if jobs < 1:
+        raise SpecError(f"jobs: expected 1 or more, found {jobs}")
+    chosen = bed_spec_of(spec, options, where="make_beds")
+    return tiles(chosen, start=start, jobs=jobs)

@@ -1,4 +1,4 @@
-"""`rockshape synth`: scenes and drawn shapes from the command line.
+"""`rockshape synth`: scenes, gravel beds and drawn shapes from the command line.
 
 What makes them is imported when it is asked for, so that `--help` is fast.
 """
@@ -12,6 +12,7 @@ from typing import get_args
 
 import msgspec
 
+from synth.bed.command import add_bed_arguments, run_bed
 from synth.errors import SpecError
 from synth.spec import MAX_SCENES, RendererName, SceneSpec, convert_spec, load_spec
 from synth.spec.limits import MAX_COUNT
@@ -20,12 +21,13 @@ from synth.spec.shapes import JITTER_RMS_PX, SERIES_NAMES
 from synth.spec.view import PresetName
 from synth.spec.wording import expected_one_of
 
-HELP = "generate rocks of known shape: rendered scenes or drawn shapes, with their ground truth"
+HELP = "generate rocks of known shape: scenes, gravel beds or drawn shapes, with their ground truth"
 
 _MAX_SEED = 2**63
 _SPEC_OPTIONS = ("spec", "seed", "scenes", "rocks", "views", "camera", "renderer", "noise")
 _EXAMPLES = """examples:
   rockshape synth scene scenes --rocks 6 --views 4 --seed 1
+  rockshape synth bed beds --tiles 100 --seed 1
   rockshape synth shapes shapes --series roundness
 """
 _SCENE_EXAMPLES = """examples:
@@ -39,7 +41,7 @@ _SHAPES_EXAMPLES = """examples:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the two kinds of output and their options."""
+    """Declare the kinds of output and their options."""
     parser.epilog, parser.formatter_class = _EXAMPLES, argparse.RawDescriptionHelpFormatter
     kinds = parser.add_subparsers(title="kinds", metavar="KIND", dest="kind", required=True)
     scene = kinds.add_parser(
@@ -72,6 +74,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=Path,
         help="generate a manifest's dataset again and compare the hash of every file",
     )
+    add_bed_arguments(kinds)
     shapes = kinds.add_parser(
         "shapes",
         help="a series of drawn shapes: image, labels and ground truth",
@@ -103,7 +106,8 @@ def run(args: argparse.Namespace) -> int:
         MissingBackendError: the machine lacks the renderer.
         ReplayError: a dataset generated again is not the same.
     """
-    return _run_shapes(args) if args.kind == "shapes" else _run_scene(args)
+    run_kind = {"bed": run_bed, "scene": _run_scene, "shapes": _run_shapes}[args.kind]
+    return run_kind(args)
 
 
 def _run_shapes(args: argparse.Namespace) -> int:

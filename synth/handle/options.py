@@ -55,7 +55,7 @@ def spec_of(source: SpecSource | None, options: Mapping[str, Any]) -> SceneSpec:
             raise SpecError(
                 f"{where}: {unknown_name('argument', name, SceneOptions.__annotations__)}"
             )
-    return convert_spec(_merged(_table(source), _tables(options)), where=where)
+    return convert_spec(merged(_table(source), _tables(options)), where=where)
 
 
 def with_noise(spec: SceneSpec, noise: str | Table | None) -> SceneSpec:
@@ -67,7 +67,7 @@ def with_noise(spec: SceneSpec, noise: str | Table | None) -> SceneSpec:
     if noise is None:
         return spec
     return convert_spec(
-        _merged(msgspec.to_builtins(spec), _tables({"noise": noise})), where="render"
+        merged(msgspec.to_builtins(spec), _tables({"noise": noise})), where="render"
     )
 
 
@@ -96,13 +96,13 @@ def _tables(options: Mapping[str, Any]) -> dict[str, Any]:
         if name not in _OF_ROCKS
     }
     own = {name: options[name] for name in _OF_ROCKS if name in options}
-    return _merged(tables, {"rocks": own}) if own else tables
+    return merged(tables, {"rocks": own}) if own else tables
 
 
-def _merged(one: Table, two: Table) -> dict[str, Any]:
+def merged(one: Table, two: Table) -> dict[str, Any]:
     """The first table with what the second says; tables within are merged, all else replaced."""
     both = {**one, **two}
     for key in one.keys() & two.keys():
         if isinstance(one[key], Mapping) and isinstance(two[key], Mapping):
-            both[key] = _merged(one[key], two[key])
+            both[key] = merged(one[key], two[key])
     return both

@@ -1,6 +1,5 @@
 """Dataset specification: every parameter with its unit, limits and default; read from TOML."""
 
-import tomllib
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -14,6 +13,7 @@ from synth.spec.population import PopulationSpec
 from synth.spec.rocks import RocksSpec
 from synth.spec.sensor import NoiseSpec, SensorSpec
 from synth.spec.surface import SurfaceSpec
+from synth.spec.toml import read_toml
 from synth.spec.view import CameraSpec, SunSpec, ViewsSpec
 
 RendererName = Literal["auto", "osmesa", "egl", "embree"]
@@ -51,15 +51,7 @@ def load_spec(path: Path) -> SceneSpec:
     Raises:
         SpecError: the file is missing, is no TOML, or holds a key or value that is not allowed.
     """
-    try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise SpecError(f"{path}: expected a TOML file, found {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise SpecError(f"{path}: expected a TOML file, found bytes that are no text") from error
-    except (ValueError, RecursionError) as error:
-        raise SpecError(f"{path}: expected TOML, found {error}") from error
-    return convert_spec(table, where=str(path))
+    return convert_spec(read_toml(path), where=str(path))
 
 
 def convert_spec(table: object, *, where: str) -> SceneSpec:

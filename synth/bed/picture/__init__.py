@@ -1,0 +1,1 @@
+"""Pictures of beds: reflectance, light on a height field, photographs."""

@@ -1,0 +1,1 @@
+"""Relief of beds: bodies of grains, ground, and grains packed on it."""

@@ -1,0 +1,95 @@
+"""Periodic random fields: fractal noise, cells and stones on a square that repeats itself."""
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+
+Field = NDArray[np.float32]  # (side, side), both edges join
+
+
+def fractal(side: int, slope: float, rng: np.random.Generator, *, finest_px: float = 0.0) -> Field:
+    """Gaussian field of zero mean and unit variance whose power falls as frequency^−slope.
+
+    Waves shorter than `finest_px` are left out.
+    """
+    down = fft.fftfreq(side)[:, None]
+    across = fft.rfftfreq(side)[None, :]
+    frequency = np.hypot(down, across)
+    frequency[0, 0] = np.inf
+    gain = frequency ** (-slope / 2.0)
+    if finest_px > 0.0:
+        gain *= np.exp(-((frequency * finest_px) ** 2))
+    gain[0, 0] = 0.0
+    white = fft.rfft2(rng.standard_normal((side, side)))
+    field = fft.irfft2(white * gain, s=(side, side))
+    return np.asarray(field / field.std(), dtype=np.float32)
+
+
+def cells(
+    side: int, spacing: int, rng: np.random.Generator
+) -> tuple[Field, Field, NDArray[np.int32], Field, Field]:
+    """Voronoi cells of one random point in each square of a grid; `spacing` divides `side`.
+
+    Returns the distances to the nearest and the second nearest point (px), the cell's number, and
+    the offsets from its point along columns and rows (px).
+    """
+    count = side // spacing
+    places = (rng.uniform(0.0, 1.0, (count, count, 2)) * spacing).astype(np.float32)
+    line = np.arange(side, dtype=np.int64)
+    square, rest = line // spacing, (line % spacing).astype(np.float32)
+    best = np.full((side, side), np.inf, dtype=np.float32)
+    second = best.copy()
+    number = np.zeros((side, side), dtype=np.int32)
+    right, below = np.zeros_like(best), np.zeros_like(best)
+    for down in (-1, 0, 1):
+        rows = (square + down) % count
+        for along in (-1, 0, 1):
+            columns = (square + along) % count
+            point = places[rows[:, None], columns[None, :]]
+            dx = rest[None, :] - (point[..., 0] + along * spacing)
+            dy = rest[:, None] - (point[..., 1] + down * spacing)
+            distance = np.hypot(dx, dy)
+            nearer = distance < best
+            second = np.where(nearer, best, np.minimum(second, distance))
+            best = np.where(nearer, distance, best)
+            number = np.where(nearer, (rows[:, None] * count + columns).astype(np.int32), number)
+            right, below = np.where(nearer, dx, right), np.where(nearer, dy, below)
+    return best, second, number, right, below
+
+
+def stones(
+    side: int, spacing: int, share: float, rng: np.random.Generator, *, size: float = 1.0
+) -> tuple[Field, Field]:
+    """Small stones in the squares of a grid: heights of their tops (px) and a tint for each.
+
+    Each is a tilted half-ellipsoid with a facet or two, in a share of the squares; the height is
+    0 and the tint 0 between them. The tint has unit variance.
+    """
+    _, _, number, right, below = cells(side, spacing, rng)
+    count = (side // spacing) ** 2
+    long_px = (size * spacing * rng.uniform(0.32, 0.62, count)).astype(np.float32)
+    short_px = long_px * rng.uniform(0.5, 0.95, count).astype(np.float32)
+    turn = rng.uniform(0.0, np.pi, count)
+    cosine, sine = np.cos(turn).astype(np.float32), np.sin(turn).astype(np.float32)
+    flat = rng.uniform(0.45, 0.9, count).astype(np.float32) * short_px
+    there = rng.uniform(size=count) < share
+    slope = rng.uniform(-0.35, 0.35, (2, count)).astype(np.float32)
+    power = rng.uniform(2.0, 4.0, count).astype(np.float32)
+    u = (right * cosine[number] + below * sine[number]) / long_px[number]
+    v = (below * cosine[number] - right * sine[number]) / short_px[number]
+    gauge = np.abs(u) ** power[number] + np.abs(v) ** power[number]
+    dome = flat[number] * np.sqrt(np.maximum(1.0 - gauge, 0.0))
+    dome *= 1.0 + slope[0][number] * u + slope[1][number] * v
+    here = (gauge < 1.0) & there[number]
+    height = np.where(here, np.maximum(dome, 0.0), 0.0)
+    tint = np.where(here, rng.standard_normal(count)[number], 0.0)
+    return height.astype(np.float32), tint.astype(np.float32)
+
+
+def wrapped(maps: Field, columns: Field, rows: Field) -> Field:
+    """Periodic maps at places, linear between samples."""
+    return np.asarray(
+        cv2.remap(maps, columns, rows, cv2.INTER_LINEAR, borderMode=cv2.BORDER_WRAP),
+        dtype=np.float32,
+    )

@@ -103,7 +103,7 @@ class BedLightSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True
 
     azimuth_deg: tuple[Azimuth, Azimuth] = (0.0, 360.0)  # towards the sun, from +x towards +y
     elevation_deg: tuple[Elevation, Elevation] = (14.0, 75.0)
-    sky: Share = (0.12, 0.4)  # share of the sky in the light on level ground
+    sky: Share = (0.08, 0.35)  # share of the sky in the light on level ground
     overcast: Fraction = 0.25  # share of tiles under a clouded sky, without a shadow to speak of
     palettes: Annotated[tuple[Palette, ...], Meta(min_length=1)] = (
         "river",
@@ -125,20 +125,20 @@ class BedPhotoSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True
 
     brightness: tuple[Ratio, Ratio] = (0.38, 0.62)  # mean of the picture, 1 for white
     contrast: tuple[Annotated[float, Meta(gt=0, le=4)], Annotated[float, Meta(gt=0, le=4)]] = (
-        0.85,
-        1.3,
+        0.9,
+        1.6,
     )  # slope of the tone curve at the mean
     blur_px: tuple[Annotated[float, Meta(ge=0, le=20)], Annotated[float, Meta(ge=0, le=20)]] = (
-        0.25,
-        0.95,
+        0.2,
+        0.85,
     )  # standard deviation
     sharpening: tuple[Annotated[float, Meta(ge=0, le=4)], Annotated[float, Meta(ge=0, le=4)]] = (
         0.0,
         0.8,
     )  # share of what a blur takes away that is added again
     noise: tuple[Annotated[float, Meta(ge=0, le=1)], Annotated[float, Meta(ge=0, le=1)]] = (
-        0.002,
-        0.025,
+        0.001,
+        0.02,
     )  # RMS at the mean brightness, 1 for white
     jpeg_quality: tuple[Quality, Quality] | None = (55, 97)  # None: no loss
     grey: Fraction = 0.25  # share of tiles without colour

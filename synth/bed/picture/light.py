@@ -11,7 +11,7 @@ from synth.spec.bed import BedLightSpec
 
 Singles = NDArray[np.float32]
 
-_BOUNCE = 0.5  # share of the reflected light that reaches what sees no sky
+_BOUNCE = 0.4  # share of the reflected light that reaches what sees no sky
 _LOW_SUN = 0.25  # sine of the elevation below which level ground stays darker than white
 _HOLLOW = 1.3  # power of the seen share of the sky: light from low in the sky is weaker
 

@@ -16,8 +16,8 @@ BEDS = (
     {"grains": {"median_px": [22, 22], "cover": [2.2, 2.2]}, "light": {"palettes": ["river"]}},
     {"grains": {"median_px": [34, 34], "cover": [2.5, 2.5]}, "light": {"palettes": ["limestone"]}},
     {
-        "grains": {"median_px": [20, 20], "cover": [0.5, 0.5], "shapes": ["cobble", "lumpy"]},
-        "ground": {"kinds": ["sand"], "filled": 1.0},
+        "grains": {"median_px": [20, 20], "cover": [1.0, 1.0], "shapes": ["cobble", "lumpy"]},
+        "ground": {"kinds": ["sand"], "filled": 1.0, "fill": [0.3, 0.3]},
         "light": {"palettes": ["river"]},
     },
     {
@@ -47,7 +47,11 @@ def cell(image: np.ndarray) -> np.ndarray:
 
 def main() -> None:
     """Draw docs/images/beds.jpg: two rows of four, the last a photograph."""
-    cells = [cell(make_bed(spec, index=7, seed=1, photo=COLOUR).image) for spec in BEDS]
+    cells = []
+    for index, spec in enumerate(BEDS):
+        light = {**spec["light"], "azimuth_deg": [205, 245]}
+        bed = make_bed({**spec, "light": light}, index=index, seed=1, photo=COLOUR)
+        cells.append(cell(bed.image))
     cells.append(cell(np.asarray(Image.open(PHOTO).convert("RGB"))[:SIDE_PX, :SIDE_PX]))
     rows = [np.concatenate(cells[start : start + 4], axis=1) for start in (0, 4)]
     sheet = Image.fromarray(np.concatenate(rows))

@@ -13,7 +13,7 @@ Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
 
 _SAMPLES = (SIDE - 1) / (2.0 * REACH)  # of a body's maps, in a unit of length
-_CANDIDATES = 7  # places tried for each grain; it rolls to the lowest
+_CANDIDATES = 7  # most places tried for a grain, which rolls to the lowest
 _REST = 0.94  # share of the footprint's heights below which a grain rests
 _MAX_SLOPE, _FOLLOW = 0.45, 0.75  # a grain leans as its bed does, up to a limit
 _MAGNIFIED = 3.0  # maps magnified more than this are enlarged in two steps
@@ -62,16 +62,22 @@ class HeightField:
 def pack(
     field: HeightField, grains: Sequence[Grain], rng: np.random.Generator
 ) -> tuple[Footprint, ...]:
-    """Grains dropped in turn; the field's heights and grains are changed in place."""
+    """Grains dropped in turn; the field's heights and grains are changed in place.
+
+    On bare ground a grain stays where it falls. The more of the ground is covered, the more places
+    it tries, for on other grains it rolls.
+    """
     rows, columns = field.height_px.shape
     span = np.array([columns, rows]) / field.per_px
     draws = rng.uniform(0.0, 1.0, (len(grains), _CANDIDATES, 2))
-    placed = []
+    placed, covered = [], 0.0
     for number, grain in enumerate(grains, start=1):
         ends = grain.body.hull @ grain.stretch.T
         reach = np.abs(ends).max(axis=0)
         places = draws[number - 1] * (span + 1.2 * reach) - 0.6 * reach - field.margin_px
-        best = places[np.argmin(_levels(field, places, reach))]
+        tried = places[: 1 + int((_CANDIDATES - 1) * min(covered / float(span.prod()), 1.0))]
+        best = tried[np.argmin(_levels(field, tried, reach))]
+        covered += grain.body.area * abs(float(np.linalg.det(grain.stretch)))
         placed.append(_drop(field, number, grain, best, ends))
     return tuple(placed)
 

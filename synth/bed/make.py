@@ -20,7 +20,7 @@ from synth.bed.picture.texture import PATTERN, RELIEF, texture_maps, textures
 from synth.bed.relief.bodies import body_library
 from synth.bed.relief.ground import fill, ground_maps, make_ground
 from synth.bed.relief.packing import Footprint, Grain, HeightField, pack
-from synth.bed.relief.sizes import calipers, draw_grains
+from synth.bed.relief.sizes import draw_grains
 from synth.bed.table import grain_table
 from synth.spec.bed import BedSpec
 
@@ -108,9 +108,8 @@ def _looks(
     colours: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]],
     rng: np.random.Generator,
 ) -> RockLook:
-    widths = [calipers(grain.body.hull @ grain.stretch.T)[0] for grain in grains]
     return draw_looks(
-        np.array(widths, dtype=np.float64),
+        np.array([grain.width_px for grain in grains], dtype=np.float64),
         np.array([place.centre_px for place in places]).reshape(-1, 2),
         np.array([grain.body.roughness for grain in grains], dtype=np.float64),
         colours,

@@ -7,7 +7,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from synth.bed.relief.packing import Footprint, Grain
-from synth.bed.relief.sizes import calipers
+from synth.bed.relief.sizes import greatest_caliper
 
 Counts = NDArray[np.int64]
 COLUMNS = (
@@ -41,8 +41,7 @@ def _row(
     grain: Grain, place: Footprint, visible_px: int, shape: tuple[int, int]
 ) -> tuple[str | float | bool, ...]:
     body, stretch = grain.body, grain.stretch
-    least, most = calipers(body.hull @ stretch.T)
-    area = body.area * abs(float(np.linalg.det(stretch)))
+    area = grain.area_px2
     x, y = place.centre_px + stretch @ body.centroid
     values, vectors = np.linalg.eigh(stretch @ body.covariance @ stretch.T)
     # A pixel of row r and column c spans half a pixel round (c, r).
@@ -53,8 +52,8 @@ def _row(
         body.kind,
         float(x),
         float(y),
-        least,
-        most,
+        grain.width_px,
+        greatest_caliper(body.hull @ stretch.T),
         float(4.0 * np.sqrt(values[1])),
         float(4.0 * np.sqrt(values[0])),
         float(np.rad2deg(np.arctan2(vectors[1, 1], vectors[0, 1])) % 180.0),

@@ -48,7 +48,7 @@ class GrainsSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     cover: tuple[Annotated[float, Meta(ge=0, le=6)], Annotated[float, Meta(ge=0, le=6)]] = (
         0.15,
         2.2,
-    )  # area of all outlines over that of the ground; 1.5 and more leaves no ground in sight
+    )  # area of all outlines over that of the ground; 2.5 leaves hardly any ground in sight
     count: Annotated[int, Meta(ge=0, le=MAX_GRAINS)] | None = None  # in place of `cover`
     axis_ratio: tuple[Ratio, Ratio] = (0.5, 1.0)  # how bodies are drawn out in plan
     flatness: tuple[Ratio, Ratio] = (0.4, 0.9)  # thickness over width

@@ -27,8 +27,15 @@ class Grain:
 
     body: GrainBody
     stretch: Floats  # (2, 2), body to px in plan
+    width_px: float  # least caliper of its whole outline
     half_thickness_px: float
     burial: float  # share of its thickness below ground that it lies on
+
+    @property
+    def area_px2(self) -> float:
+        """Area of the whole outline."""
+        (a, b), (c, d) = self.stretch
+        return self.body.area * abs(float(a * d - b * c))
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +84,7 @@ def pack(
         places = draws[number - 1] * (span + 1.2 * reach) - 0.6 * reach - field.margin_px
         tried = places[: 1 + int((_CANDIDATES - 1) * min(covered / float(span.prod()), 1.0))]
         best = tried[np.argmin(_levels(field, tried, reach))]
-        covered += grain.body.area * abs(float(np.linalg.det(grain.stretch)))
+        covered += grain.area_px2
         placed.append(_drop(field, number, grain, best, ends))
     return tuple(placed)
 

@@ -45,19 +45,19 @@ def draw_grains(
     kinds = [str(kind) for kind in rng.permutation(spec.shapes)[: int(rng.integers(1, 4))]]
     stock = [body for body in library if body.kind in kinds] or list(library)
     grains: list[Grain] = []
-    widths: list[float] = []
     covered = 0.0
     limit = MAX_GRAINS if spec.count is None else spec.count
     while len(grains) < limit and (spec.count is not None or covered < cover * area_px2):
         for width in draw_widths_px(spec, _MANY, rng, law):
             grain = _drawn(spec, stock, float(width), rng)
             grains.append(grain)
-            widths.append(float(width))
-            covered += grain.body.area * abs(np.linalg.det(grain.stretch))
+            covered += grain.area_px2
             if len(grains) == limit or (spec.count is None and covered >= cover * area_px2):
                 break
-    ranks = np.log(widths or [1.0]) + _SHUFFLE * rng.standard_normal(max(len(widths), 1))
-    return [grains[index] for index in np.argsort(-ranks)[: len(grains)]]
+    ranks = np.log([grain.width_px for grain in grains]) + _SHUFFLE * rng.standard_normal(
+        len(grains)
+    )
+    return [grains[index] for index in np.argsort(-ranks)]
 
 
 def _drawn(
@@ -68,28 +68,34 @@ def _drawn(
     ratio = rng.uniform(*spec.axis_ratio)
     mirror = 1.0 if rng.uniform() < 0.5 else -1.0
     stretch = _turn(two) @ np.diag([1.0, ratio * mirror]) @ _turn(one)
-    least, _ = calipers(body.hull @ stretch.T)
+    least = least_caliper(body.hull @ stretch.T)
     flat = rng.uniform(*spec.flatness) * (0.6 if body.kind == "slab" else 1.0)
     return Grain(
         body=body,
         stretch=stretch * (width_px / least),
+        width_px=width_px,
         half_thickness_px=width_px * flat / 2.0,
         burial=rng.uniform(*spec.burial),
     )
 
 
-def calipers(hull: Floats) -> tuple[float, float]:
-    """Least and greatest caliper of a convex polygon, (n, 2); repeated corners do no harm.
+def least_caliper(hull: Floats) -> float:
+    """Least caliper of a convex polygon, (n, 2): one jaw lies along a side.
 
-    The least is met with one jaw along a side, the greatest between two corners.
+    Repeated corners do no harm.
     """
     sides = np.roll(hull, -1, axis=0) - hull
-    lengths = np.hypot(sides[:, 0], sides[:, 1])
-    real = lengths > 1e-9
-    normals = np.column_stack([-sides[real, 1], sides[real, 0]]) / lengths[real, None]
-    reaches = hull @ normals.T
-    gaps = hull[:, None, :] - hull[None, :, :]
-    return float(np.ptp(reaches, axis=0).min()), float(np.sqrt((gaps**2).sum(axis=-1).max()))
+    lengths = np.sqrt(sides[:, 0] ** 2 + sides[:, 1] ** 2)
+    lengths[lengths < 1e-9] = np.inf
+    reaches = hull[:, :1] * (sides[:, 1] / lengths) - hull[:, 1:] * (sides[:, 0] / lengths)
+    widths = reaches.max(axis=0) - reaches.min(axis=0)
+    return float(widths[np.isfinite(lengths)].min())
+
+
+def greatest_caliper(hull: Floats) -> float:
+    """Greatest caliper of a convex polygon, (n, 2): between two corners."""
+    across, down = hull[:, :1] - hull[:, 0], hull[:, 1:] - hull[:, 1]
+    return float(np.sqrt((across * across + down * down).max()))
 
 
 def _turn(angle: float) -> Floats:

@@ -133,7 +133,7 @@ def test_cover_goes_from_bare_ground_to_nothing_but_grains():
     assert not bare.labels.any()
     assert len(bare.rocks) == 0
     full = synth.make_bed(**SMALL, grains={"cover": [5, 5]}, ground={"filled": 0.0})
-    assert (full.labels > 0).mean() > 0.97
+    assert (full.labels > 0).mean() > 0.94
     sunk = synth.make_bed(
         **SMALL, grains={"cover": [5, 5]}, ground={"filled": 1.0, "fill": [0.5, 0.5]}
     )

@@ -5,7 +5,7 @@ import pytest
 
 from synth.bed.relief.bodies import KINDS, REACH, SIDE, GrainBody, make_body
 from synth.bed.relief.packing import Grain, HeightField, pack
-from synth.bed.relief.sizes import calipers, draw_grains, draw_widths_px
+from synth.bed.relief.sizes import draw_grains, draw_widths_px, greatest_caliper, least_caliper
 from synth.spec.bed import GrainsSpec
 
 
@@ -31,7 +31,9 @@ def balls():
         a, b = rng.uniform(5.0, 14.0, 2)
         turn = rng.uniform(0.0, np.pi)
         rotation = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
-        grains.append(Grain(ball(), rotation @ np.diag([a, b]), rng.uniform(3.0, 8.0), 0.0))
+        grains.append(
+            Grain(ball(), rotation @ np.diag([a, b]), 2.0 * min(a, b), rng.uniform(3.0, 8.0), 0.0)
+        )
     field = HeightField(np.zeros((160, 176), np.float32), np.zeros((160, 176), np.int32), 2, 8)
     return grains, field, pack(field, grains, np.random.default_rng(6))
 
@@ -67,7 +69,7 @@ def test_heights_and_labels_are_the_highest_surface(balls):
 
 def test_a_grain_on_flat_ground_rests_on_its_lower_side():
     field = HeightField(np.zeros((100, 100), np.float32), np.zeros((100, 100), np.int32), 2, 0)
-    grain = Grain(ball(), 12.0 * np.eye(2), 7.0, 0.0)
+    grain = Grain(ball(), 12.0 * np.eye(2), 24.0, 7.0, 0.0)
     (place,) = pack(field, [grain], np.random.default_rng(0))
     assert 0.97 * 7.0 < place.base_px <= 7.0
     assert np.abs(place.lean).max() == 0.0
@@ -77,7 +79,7 @@ def test_burial_lowers_a_grain_that_lies_on_the_ground():
     tops = []
     for burial in (0.0, 0.5):
         field = HeightField(np.zeros((90, 90), np.float32), np.zeros((90, 90), np.int32), 2, 0)
-        pack(field, [Grain(ball(), 9.0 * np.eye(2), 6.0, burial)], np.random.default_rng(3))
+        pack(field, [Grain(ball(), 9.0 * np.eye(2), 18.0, 6.0, burial)], np.random.default_rng(3))
         tops.append(field.height_px.max())
     assert tops[0] - tops[1] == pytest.approx(0.5 * 12.0, rel=0.02)
 
@@ -97,7 +99,9 @@ def test_calipers_of_a_rectangle_that_is_turned():
     turn = np.deg2rad(33.0)
     rotation = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
     corners = np.array([[2.0, 1.0], [-2.0, 1.0], [-2.0, -1.0], [2.0, -1.0]]) @ rotation.T
-    assert calipers(corners) == pytest.approx((2.0, np.sqrt(20.0)))
+    assert least_caliper(corners) == pytest.approx(2.0)
+    assert greatest_caliper(corners) == pytest.approx(np.sqrt(20.0))
+    assert least_caliper(corners[[0, 0, 1, 2, 3, 3]]) == pytest.approx(2.0)
 
 
 def test_widths_follow_the_lognormal_law():
@@ -122,7 +126,7 @@ def test_drawn_grains_have_the_width_that_was_drawn_and_fill_the_cover():
     spec = GrainsSpec(median_px=(25.0, 25.0), spread=(0.0, 0.0), cover=(0.8, 0.8))
     library = tuple(make_body(kind, np.random.default_rng(2)) for kind in KINDS)
     grains = draw_grains(spec, library, 90_000.0, np.random.default_rng(4))
-    widths = [calipers(grain.body.hull @ grain.stretch.T)[0] for grain in grains]
+    widths = [least_caliper(grain.body.hull @ grain.stretch.T) for grain in grains]
     assert widths == pytest.approx([25.0] * len(grains))
     area = sum(grain.body.area * abs(np.linalg.det(grain.stretch)) for grain in grains)
     assert 0.8 * 90_000.0 <= area < 0.83 * 90_000.0

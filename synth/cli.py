@@ -28,7 +28,6 @@ _SPEC_OPTIONS = ("spec", "seed", "scenes", "rocks", "views", "camera", "renderer
 _EXAMPLES = """examples:
   rockshape synth scene scenes --rocks 6 --views 4 --seed 1
   rockshape synth bed beds --tiles 100 --seed 1
-  rockshape synth shapes shapes --series roundness
 """
 _SCENE_EXAMPLES = """examples:
   rockshape synth scene scenes --rocks 6 --views 4 --seed 1 --noise stereo

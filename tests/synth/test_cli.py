@@ -68,7 +68,7 @@ def test_shapes_are_written(tmp_path):
     }
 
 
-@pytest.mark.parametrize("kind", [[], ["scene"], ["shapes"]])
+@pytest.mark.parametrize("kind", [[], ["scene"], ["bed"], ["shapes"]])
 def test_help_has_two_examples_that_parse(capsys, kind):
     with pytest.raises(SystemExit) as done:
         main(["synth", *kind, "--help"])

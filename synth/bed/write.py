@@ -16,6 +16,7 @@ from synth.bed.coco import coco_tables, tile_record
 from synth.bed.make import make_tile
 from synth.bed.tiles import in_order
 from synth.dataset.files import plain, read_json, sha256, write_json, write_png
+from synth.dataset.folder_lock import folder_lock
 from synth.errors import ReplayError, SpecError
 from synth.spec.bed import BedSpec, convert_bed_spec
 
@@ -33,10 +34,18 @@ def write_beds(spec: BedSpec, out: Path, *, jobs: int = 1, show_progress: bool =
     written whole or not at all, the manifest last.
 
     Raises:
-        SpecError: `out` is a file, a folder of something else or the dataset of another spec.
+        SpecError: `out` is a file, a folder of something else, the dataset of another spec, or
+            another run writes there.
     """
-    if _claim(spec, out):
-        return
+    if out.exists() and not out.is_dir():
+        raise SpecError(f"{out}: expected a folder, found a file")
+    with folder_lock(out):
+        if not _claim(spec, out):
+            _write(spec, out, jobs=jobs, show_progress=show_progress)
+
+
+def _write(spec: BedSpec, out: Path, *, jobs: int, show_progress: bool) -> None:
+    """Write what is missing of a dataset that is begun."""
     done = out / _PARTIAL
     missing = [index for index in range(spec.tiles) if not (done / f"{index:06d}.json").is_file()]
     made = in_order(partial(_write_tile, out), spec, missing, jobs=jobs)
@@ -83,8 +92,6 @@ def _claim(spec: BedSpec, out: Path) -> bool:
     Raises:
         SpecError: the folder holds something else.
     """
-    if out.exists() and not out.is_dir():
-        raise SpecError(f"{out}: expected a folder, found a file")
     known = next(
         (
             path

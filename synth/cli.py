@@ -15,6 +15,7 @@ import msgspec
 from synth.bed.command import add_bed_arguments, run_bed
 from synth.errors import SpecError
 from synth.spec import MAX_SCENES, RendererName, SceneSpec, convert_spec, load_spec
+from synth.spec.dataset import LayoutName
 from synth.spec.limits import MAX_COUNT
 from synth.spec.sensor import SENSORS
 from synth.spec.shapes import JITTER_RMS_PX, SERIES_NAMES
@@ -25,6 +26,7 @@ HELP = "generate rocks of known shape: scenes, gravel beds or drawn shapes, with
 
 _MAX_SEED = 2**63
 _SPEC_OPTIONS = ("spec", "seed", "scenes", "rocks", "views", "camera", "renderer", "noise")
+_DATASET_OPTIONS = ("split", "layout", "yolo")
 _EXAMPLES = """examples:
   rockshape synth scene scenes --rocks 6 --views 4 --seed 1
   rockshape synth bed beds --tiles 100 --seed 1
@@ -59,6 +61,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     scene.add_argument("--camera", metavar="PRESET", help=_listed(get_args(PresetName)))
     scene.add_argument("--renderer", metavar="NAME", help=_listed(get_args(RendererName)))
     scene.add_argument("--noise", metavar="KIND", help=f"range sensor: {_listed(SENSORS.names)}")
+    scene.add_argument(
+        "--split", metavar="SHARE", type=float, help="share of the scenes for training: COCO files"
+    )
+    scene.add_argument("--layout", metavar="NAME", help=_listed(get_args(LayoutName)))
+    scene.add_argument(
+        "--yolo",
+        action="store_const",
+        const=True,
+        help="also pictures and label files as YOLO reads them",
+    )
     scene.add_argument(
         "--plugin",
         metavar="MODULE",
@@ -166,7 +178,7 @@ def _named_as_option(text: str) -> str:
 
 def _reject_beside_replay(args: argparse.Namespace) -> None:
     """Reject options that would describe another dataset than the manifest's."""
-    for option in _SPEC_OPTIONS:
+    for option in (*_SPEC_OPTIONS, *_DATASET_OPTIONS):
         if getattr(args, option) is not None:
             raise SpecError(
                 f"--{option}: expected none beside --replay, whose manifest holds the spec, "
@@ -188,6 +200,7 @@ def _spec(args: argparse.Namespace) -> SceneSpec:
     """Spec of the file, or the default one, with the options laid over it."""
     _require("--camera", args.camera, get_args(PresetName))
     _require("--renderer", args.renderer, get_args(RendererName))
+    _require("--layout", args.layout, get_args(LayoutName))
     _require("--noise", args.noise, SENSORS.names)
     for option, most in (("scenes", MAX_SCENES), ("rocks", MAX_COUNT), ("views", MAX_COUNT)):
         value = getattr(args, option)
@@ -208,6 +221,10 @@ def _spec(args: argparse.Namespace) -> SceneSpec:
     ):
         if value is not None:
             part[key] = value
+    given = {name: getattr(args, name) for name in _DATASET_OPTIONS}
+    given = {name: value for name, value in given.items() if value is not None}
+    if given:
+        table["dataset"] = {**table.get("dataset", {}), **given}
     return convert_spec(table, where="options")
 
 

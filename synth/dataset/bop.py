@@ -19,12 +19,6 @@ Table = dict[str, Any]
 
 _NOWHERE = [-1, -1, -1, -1]  # BOP's box of a rock that is not seen
 _MANY = 1500  # points: their hull takes less time than their pairs
-MAX_ROCKS = 1000  # object ids leave this much room for each scene
-
-
-def object_id(scene: int, instance: int) -> int:
-    """Rock's number in the dataset: 1000 × scene + instance + 1."""
-    return MAX_ROCKS * scene + instance + 1
 
 
 def camera_table(camera: RenderCamera, depth_scale: float) -> Table:
@@ -55,16 +49,21 @@ def scene_camera(scene: SceneModel, depth_scale: float) -> Table:
     }
 
 
-def scene_gt(scene: SceneModel, index: int) -> Table:
-    """Table of scene_gt.json: each rock's pose in each view, millimetres."""
+def scene_gt(scene: SceneModel, first_id: int, origins_m: Sequence[Floats]) -> Table:
+    """Table of scene_gt.json: each rock's pose in each view, millimetres.
+
+    `first_id` is the first rock's object id; `origins_m` holds for each rock the place of its
+    model's origin in the rock's own frame, (3,), relative to its centroid.
+    """
     return {
         str(view): [
             {
-                "obj_id": object_id(index, instance),
+                "obj_id": first_id + instance,
                 "cam_R_m2c": (pose.world_to_camera @ placed.model_to_world).ravel(),
-                "cam_t_m2c": 1000.0 * pose.camera_points_m(placed.position_m),
+                "cam_t_m2c": 1000.0
+                * pose.camera_points_m(placed.position_m + placed.model_to_world @ origin_m),
             }
-            for instance, placed in enumerate(scene.rocks)
+            for instance, (placed, origin_m) in enumerate(zip(scene.rocks, origins_m, strict=True))
         ]
         for view, pose in enumerate(scene.poses)
     }
@@ -111,7 +110,7 @@ def _info(
     }
 
 
-def scene_gt_coco(scene: SceneModel, index: int, views: Sequence[Sight]) -> Table:
+def scene_gt_coco(scene: SceneModel, index: int, first_id: int, views: Sequence[Sight]) -> Table:
     """Table of scene_gt_coco.json: visible masks in run lengths down the columns.
 
     A rock that is not seen has no annotation.
@@ -125,7 +124,7 @@ def scene_gt_coco(scene: SceneModel, index: int, views: Sequence[Sight]) -> Tabl
                     {
                         "id": len(annotations) + 1,
                         "image_id": number,
-                        "category_id": object_id(index, instance),
+                        "category_id": first_id + instance,
                         "iscrowd": 0,
                         "area": int(visible.sum()),
                         "bbox": _coco_box(visible),
@@ -146,7 +145,7 @@ def scene_gt_coco(scene: SceneModel, index: int, views: Sequence[Sight]) -> Tabl
             for number in range(len(views))
         ],
         "categories": [
-            {"id": object_id(index, instance), "name": "rock", "supercategory": "rock"}
+            {"id": first_id + instance, "name": "rock", "supercategory": "rock"}
             for instance in range(len(scene.rocks))
         ],
         "annotations": annotations,

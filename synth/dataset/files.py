@@ -53,17 +53,29 @@ def read_json(path: Path) -> Any:
 
 def write_ply_mm(path: Path, mesh: Mesh) -> None:
     """Write a mesh as binary PLY: positions in millimetres, normals, triangles."""
-    header = (
-        "ply\nformat binary_little_endian 1.0\n"
-        f"element vertex {len(mesh.vertices_m)}\n"
-        + "".join(f"property float {name}\n" for name in ("x", "y", "z", "nx", "ny", "nz"))
-        + f"element face {len(mesh.faces)}\nproperty list uchar int vertex_indices\nend_header\n"
-    )
     vertices = np.hstack([1000.0 * mesh.vertices_m, mesh.normals]).astype("<f4")
     faces = np.empty(len(mesh.faces), dtype=[("count", "u1"), ("corners", "<i4", 3)])
     faces["count"] = 3
     faces["corners"] = mesh.faces
+    header = _ply_header(mesh, "binary_little_endian")
     path.write_bytes(header.encode("ascii") + vertices.tobytes() + faces.tobytes())
+
+
+def write_ascii_ply_mm(path: Path, mesh: Mesh) -> None:
+    """Write a mesh as text PLY, in the same units and order."""
+    vertices = np.hstack([1000.0 * mesh.vertices_m, mesh.normals]).tolist()
+    lines = [" ".join(f"{value:.9g}" for value in vertex) for vertex in vertices]
+    lines += [f"3 {one} {two} {three}" for one, two, three in mesh.faces.tolist()]
+    path.write_bytes((_ply_header(mesh, "ascii") + "\n".join(lines) + "\n").encode("ascii"))
+
+
+def _ply_header(mesh: Mesh, encoding: str) -> str:
+    return (
+        f"ply\nformat {encoding} 1.0\n"
+        f"element vertex {len(mesh.vertices_m)}\n"
+        + "".join(f"property float {name}\n" for name in ("x", "y", "z", "nx", "ny", "nz"))
+        + f"element face {len(mesh.faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+    )
 
 
 def plain(value: Any) -> Any:

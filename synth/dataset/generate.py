@@ -7,15 +7,14 @@ from concurrent.futures import Executor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from pathlib import Path
-from typing import NoReturn
-
-from tqdm import tqdm
 
 from synth.dataset.files import plain, read_json, write_json
 from synth.dataset.folder_lock import folder_lock
 from synth.dataset.integrity import lost_files, scenes_of
+from synth.dataset.layout import scene_path, splits_of
+from synth.dataset.progress_bar import ProgressBar
 from synth.dataset.workers import registrations, worker_pool
-from synth.dataset.write import PARTIAL, identity, scene_name, write_common, write_scene
+from synth.dataset.write import PARTIAL, identity, write_common, write_scene
 from synth.errors import MissingBackendError, SpecError
 from synth.render import choose_backend
 from synth.render.backends import BACKENDS
@@ -49,6 +48,7 @@ def generate_dataset(
     if jobs < 1:
         raise SpecError(f"jobs: expected at least 1, found {jobs}")
     sensor_of(spec)  # what cannot be used is reported before anything is written
+    splits_of(spec)
     registrations()
     _check_folder(out)
     made = not out.is_dir()
@@ -70,11 +70,13 @@ def _generate(
     backend = _claim(spec, out, renderer)
     lost = lost_files(out)
     if lost:
-        _drop(lost, out, show_progress=show_progress)
-    missing = [index for index in range(spec.scenes) if not (out / scene_name(index)).is_dir()]
+        _drop(lost, spec, out, show_progress=show_progress)
+    missing = [
+        index for index in range(spec.scenes) if not (out / scene_path(spec, index)).is_dir()
+    ]
     if missing or not (out / "manifest.json").is_file():
-        with worker_pool(min(jobs, max(len(missing), 1))) as pool:
-            bar = _Progress(spec.scenes, len(missing), show=show_progress)
+        bar = ProgressBar(spec.scenes, len(missing), show=show_progress)
+        with worker_pool(min(jobs, max(len(missing), 1)), reports=bar.reports) as pool:
             try:
                 for name in _rendered(pool, spec, missing, backend, out):
                     bar.advance(name)
@@ -88,33 +90,6 @@ def _generate(
     shutil.rmtree(out / PARTIAL, ignore_errors=True)
 
 
-class _Progress:
-    """Progress: a bar on a terminal, a line for each scene elsewhere."""
-
-    def __init__(self, scenes: int, missing: int, *, show: bool) -> None:
-        self._lines = show and not sys.stderr.isatty()
-        self._scenes, self._there, self.advanced = scenes, scenes - missing, 0
-        self._bar: tqdm[NoReturn] = tqdm(
-            total=scenes,
-            initial=self._there,
-            desc="scenes",
-            unit="scene",
-            disable=not show or self._lines,
-        )
-
-    def advance(self, name: str) -> None:
-        """Count one scene as written."""
-        self.advanced += 1
-        self._bar.update()
-        if self._lines:
-            done = self._there + self.advanced
-            print(f"scene {name} written ({done} of {self._scenes})", file=sys.stderr)
-
-    def close(self) -> None:
-        """Leave the terminal tidy."""
-        self._bar.close()
-
-
 def _sweep(out: Path) -> None:
     """Take away what this run has written before its first scene: drafts and models."""
     shutil.rmtree(out / PARTIAL, ignore_errors=True)
@@ -124,7 +99,7 @@ def _sweep(out: Path) -> None:
         (out / "models").rmdir()
 
 
-def _drop(lost: Sequence[str], out: Path, *, show_progress: bool) -> None:
+def _drop(lost: Sequence[str], spec: SceneSpec, out: Path, *, show_progress: bool) -> None:
     """Take away the scenes that miss files, and the manifest, so that they are made again."""
     scenes = scenes_of(lost)
     if show_progress:
@@ -132,7 +107,7 @@ def _drop(lost: Sequence[str], out: Path, *, show_progress: bool) -> None:
         print(f"{out}: {lost[0]} is missing ({len(lost)} in all): {what}", file=sys.stderr)
     (out / "manifest.json").unlink()
     for index in scenes:
-        shutil.rmtree(out / scene_name(index), ignore_errors=True)
+        shutil.rmtree(out / scene_path(spec, index), ignore_errors=True)
 
 
 def _check_folder(out: Path) -> None:

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from synth.dataset.bop import MAX_ROCKS
 from synth.dataset.files import read_json
+from synth.dataset.layout import MAX_ROCKS
 from synth.errors import SpecError
 
 _DIGITS = 6  # of the numbers in file names
@@ -30,15 +30,16 @@ def lost_files(out: Path) -> list[str]:
 def scenes_of(names: Sequence[str]) -> list[int]:
     """Scenes that files of a dataset belong to, in rising order.
 
-    A path begins with its scene's number, or is the model obj_NNNNNN of a rock whose number is
+    A path has its scene's number as a folder, or is the model obj_NNNNNN of a rock whose number is
     1000 × scene + instance + 1; the other files are the whole dataset's.
     """
     scenes = set()
     for name in names:
-        first, _, rest = name.partition("/")
-        if first.isdecimal():
-            scenes.add(int(first))
-        elif rest.startswith("obj_"):
-            number = rest.removeprefix("obj_")[:_DIGITS]
+        *folders, file = name.split("/")
+        numbers = [folder for folder in folders if folder.isdecimal()]
+        if numbers:
+            scenes.add(int(numbers[0]))
+        elif file.startswith("obj_"):
+            number = file.removeprefix("obj_")[:_DIGITS]
             scenes.add((int(number) - 1) // MAX_ROCKS)
     return sorted(scenes)

@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 
 from synth.camera.camera import Pose, RenderCamera
-from synth.dataset.bop import model_info, object_id
+from synth.dataset.bop import model_info
+from synth.geometry.mesh import Mesh
 from synth.render.view import Sight
 from synth.rocks.outlines import Form, mesh_form, plane_across
 from synth.scene.scene import PlacedRock, SceneModel
@@ -16,11 +17,25 @@ Table = dict[str, Any]
 RESOLVABLE_PX = 3.0  # least radius of the corners in the image from which roundness can be told
 
 
-def scene_gt_shape(scene: SceneModel, index: int, views: Sequence[Sight]) -> Table:
-    """Table of scene_gt_shape.json: each rock's truth, and how each view sees it."""
+def scene_gt_shape(
+    scene: SceneModel,
+    first_id: int,
+    views: Sequence[Sight],
+    *,
+    models: Sequence[Mesh] | None = None,
+) -> Table:
+    """Table of scene_gt_shape.json: each rock's truth, and how each view sees it.
+
+    `first_id` is the first rock's object id; `models` are the dataset's models where they are not
+    the rocks' own meshes.
+    """
+    models = [placed.rock.mesh for placed in scene.rocks] if models is None else models
     forms = [placed.rock.form or mesh_form(placed.rock.mesh) for placed in scene.rocks]
     return {
-        "rocks": [_rock(placed, index, instance) for instance, placed in enumerate(scene.rocks)],
+        "rocks": [
+            _rock(placed, instance, first_id + instance, model)
+            for instance, (placed, model) in enumerate(zip(scene.rocks, models, strict=True))
+        ],
         "views": {
             str(number): [
                 {
@@ -36,11 +51,11 @@ def scene_gt_shape(scene: SceneModel, index: int, views: Sequence[Sight]) -> Tab
     }
 
 
-def _rock(placed: PlacedRock, index: int, instance: int) -> Table:
+def _rock(placed: PlacedRock, instance: int, object_id: int, model: Mesh) -> Table:
     rock, truth = placed.rock, placed.rock.truth
     return {
         "instance": instance,
-        "obj_id": object_id(index, instance),
+        "obj_id": object_id,
         "family": rock.family,
         "source": rock.source,
         "knobs": rock.knobs,
@@ -60,7 +75,7 @@ def _rock(placed: PlacedRock, index: int, instance: int) -> Table:
         "albedo": placed.albedo,
         "centre_m": placed.position_m,
         "rotation_model_to_world": placed.model_to_world.ravel(),
-        "model_mm": model_info(rock.mesh),
+        "model_mm": model_info(model),
     }
 
 

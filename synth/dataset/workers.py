@@ -6,9 +6,11 @@ from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing import get_context, parent_process
+from multiprocessing.queues import SimpleQueue
 
 import cv2
 
+from synth.progress import report_progress_to
 from synth.spec.rocks import FAMILIES
 from synth.spec.sensor import SENSORS
 
@@ -22,6 +24,7 @@ ONE_THREAD = {
 
 
 Registrations = tuple[bytes, bytes]
+Reports = SimpleQueue[str | None]
 
 
 def registrations() -> Registrations:
@@ -34,13 +37,13 @@ def registrations() -> Registrations:
 
 
 @contextmanager
-def worker_pool(jobs: int) -> Iterator[ProcessPoolExecutor]:
+def worker_pool(jobs: int, *, reports: Reports | None = None) -> Iterator[ProcessPoolExecutor]:
     """Pool of so many processes that have no OpenGL yet.
 
     A process is spawned when work is submitted, with the environment of that moment, so the
     environment holds the limits as long as the pool is open. With one thread sums have one order
     too: the bytes do not depend on the number of processors. The processes know the sensors and
-    rock families that are registered here.
+    rock families that are registered here, and put their progress into `reports`.
 
     Raises:
         SpecError: a registered record is in no module that the processes can import.
@@ -52,7 +55,7 @@ def worker_pool(jobs: int) -> Iterator[ProcessPoolExecutor]:
             jobs,
             mp_context=get_context("spawn"),
             initializer=begin_worker,
-            initargs=(registrations(),),
+            initargs=(registrations(), reports),
         ) as pool:
             yield pool
     finally:
@@ -63,12 +66,28 @@ def worker_pool(jobs: int) -> Iterator[ProcessPoolExecutor]:
                 os.environ[name] = value
 
 
-def begin_worker(registered: Registrations) -> None:
-    """Limit this process to one thread and take over the parent's registered records."""
+def begin_worker(registered: Registrations, reports: Reports | None = None) -> None:
+    """Limit this process to one thread and take over the parent's registered records.
+
+    What is reported of progress goes into `reports`.
+    """
+    _Reports.queue = reports
     cv2.setNumThreads(1)
     SENSORS.load(registered[0])
     FAMILIES.load(registered[1])
     threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+class _Reports:
+    """Queue of this process for reports of progress."""
+
+    queue: Reports | None = None
+
+
+def begin_scene(name: str) -> None:
+    """Report this process's progress under a scene's name from now on."""
+    queue = _Reports.queue
+    report_progress_to(None if queue is None else lambda text: queue.put(f"scene {name}: {text}"))
 
 
 def _end_with_parent() -> None:

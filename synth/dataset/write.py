@@ -15,10 +15,27 @@ from synth.camera.trajectories import camera_of
 from synth.dataset import bop
 from synth.dataset.contact_sheet import MAX_SCENES, sheet_row, write_contact_sheet
 from synth.dataset.depth import depth_scale_mm, encode_depth
-from synth.dataset.files import read_json, sha256, write_json, write_ply_mm, write_png
+from synth.dataset.files import (
+    read_json,
+    sha256,
+    write_ascii_ply_mm,
+    write_json,
+    write_ply_mm,
+    write_png,
+)
 from synth.dataset.glb import scene_glb
+from synth.dataset.layout import (
+    first_object_id,
+    layout_of,
+    model_origins_m,
+    scene_number,
+    scene_path,
+)
 from synth.dataset.shape_truth import scene_gt_shape
+from synth.dataset.splits import write_splits
+from synth.dataset.workers import begin_scene
 from synth.light import Stage, light_scene
+from synth.progress import counted
 from synth.render import RenderedView, open_renderer, render_view
 from synth.render.interface import Renderer
 from synth.render.view import Sight
@@ -31,11 +48,6 @@ _DISTRIBUTIONS = ("rockshape", "numpy", "scipy", "trimesh", "opencv-python-headl
 _BACKEND_DISTRIBUTION = {"osmesa": "arcade-pyrender", "egl": "arcade-pyrender", "embree": "embreex"}
 
 
-def scene_name(index: int) -> str:
-    """Name of a scene's folder: six digits."""
-    return f"{index:06d}"
-
-
 def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -> str:
     """Scene built, rendered and written into a dataset's folder; its folder's name.
 
@@ -44,17 +56,18 @@ def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -
     after its models: a process that outlives its run disturbs no other.
     """
     sensor = sensor_of(spec)
+    begin_scene(scene_number(index))
     scene = build_scene(spec, index)
     stage = light_scene(scene, spec.sun, spec.surface)
     renderer = open_renderer(backend, stage, scene.camera)
     scale_mm = depth_scale_mm(spec)
-    folder = out / PARTIAL / f"{scene_name(index)}.{os.getpid()}"
+    folder = out / PARTIAL / f"{scene_number(index)}.{os.getpid()}"
     shutil.rmtree(folder, ignore_errors=True)
     for name in (*sensor.folders(), "labels", "mask", "mask_visib", "models"):
         (folder / name).mkdir(parents=True)
     views: list[Sight] = []
     valid = []
-    for number in range(len(scene.poses)):
+    for number in counted(range(len(scene.poses)), "views"):
         view, capture = capture_frame(
             spec, index, number, scene=scene, stage=stage, renderer=renderer
         )
@@ -66,13 +79,27 @@ def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -
         _write_masks(folder, number, view)
         views.append(view.sight())
         valid.append(depth > 0)
-    _write_tables(folder, scene, index, views, valid=valid, scale_mm=scale_mm)
+    first_id = first_object_id(spec, index)
+    origins_m = model_origins_m(spec, scene)
+    models = [
+        placed.rock.mesh.moved(np.eye(3), -origin_m) if origin_m.any() else placed.rock.mesh
+        for placed, origin_m in zip(scene.rocks, origins_m, strict=True)
+    ]
+    tables = {
+        "camera": bop.scene_camera(scene, scale_mm),
+        "gt": bop.scene_gt(scene, first_id, origins_m),
+        "gt_info": bop.scene_gt_info(scene, views, valid),
+        "gt_coco": bop.scene_gt_coco(scene, index, first_id, views),
+        "gt_shape": scene_gt_shape(scene, first_id, views, models=models),
+    }
+    for name, table in tables.items():
+        write_json(folder / f"scene_{name}.json", table)
     (folder / "scene.glb").write_bytes(scene_glb(stage))
-    for instance, placed in enumerate(scene.rocks):
-        name = f"obj_{bop.object_id(index, instance):06d}.ply"
-        write_ply_mm(folder / "models" / name, placed.rock.mesh)
-    _publish(folder, out, index)
-    return scene_name(index)
+    for instance, model in enumerate(models):
+        place = folder / "models" / f"obj_{first_id + instance:06d}.ply"
+        (write_ascii_ply_mm if layout_of(spec).ascii_models else write_ply_mm)(place, model)
+    _publish(folder, out, out / scene_path(spec, index))
+    return scene_number(index)
 
 
 def capture_frame(
@@ -103,20 +130,21 @@ def capture_frame(
 def write_common(
     spec: SceneSpec, backend: RendererName, out: Path, pool: Executor | None = None
 ) -> None:
-    """Write camera.json, models_info.json, the contact sheet and, last, the manifest.
+    """Write camera.json, models_info.json, contact sheet, splits' files and, last, the manifest.
 
     With a pool its processes draw the sheet, row by row.
     """
-    scenes = [out / scene_name(index) for index in range(min(spec.scenes, MAX_SCENES))]
+    scenes = [out / scene_path(spec, index) for index in range(min(spec.scenes, MAX_SCENES))]
     rows = (map if pool is None else pool.map)(sheet_row, scenes)
     camera = camera_of(spec.camera)
     write_json(out / "camera.json", bop.camera_table(camera, depth_scale_mm(spec)))
     models: dict[str, Any] = {}
     for index in range(spec.scenes):
-        for rock in read_json(out / scene_name(index) / "scene_gt_shape.json")["rocks"]:
+        for rock in read_json(out / scene_path(spec, index) / "scene_gt_shape.json")["rocks"]:
             models[str(rock["obj_id"])] = rock["model_mm"]
     write_json(out / "models" / "models_info.json", models)
     write_contact_sheet(out / "contact_sheet.png", list(rows))
+    write_splits(spec, out, pool)
     manifest = {**identity(spec, backend), "files": file_digests(out)}
     draft = out / "manifest.draft"
     write_json(draft, manifest)
@@ -164,27 +192,12 @@ def _write_masks(folder: Path, number: int, view: Sight) -> None:
         write_png(folder / "mask_visib" / name, 255 * visible.astype(np.uint8))
 
 
-def _write_tables(
-    folder: Path,
-    scene: SceneModel,
-    index: int,
-    views: list[Sight],
-    *,
-    valid: list[NDArray[np.bool_]],
-    scale_mm: float,
-) -> None:
-    write_json(folder / "scene_camera.json", bop.scene_camera(scene, scale_mm))
-    write_json(folder / "scene_gt.json", bop.scene_gt(scene, index))
-    write_json(folder / "scene_gt_info.json", bop.scene_gt_info(scene, views, valid))
-    write_json(folder / "scene_gt_coco.json", bop.scene_gt_coco(scene, index, views))
-    write_json(folder / "scene_gt_shape.json", scene_gt_shape(scene, index, views))
-
-
-def _publish(folder: Path, out: Path, index: int) -> None:
+def _publish(folder: Path, out: Path, place: Path) -> None:
     """Move a whole scene into place: its models first, the folder's renaming seals it."""
     models = out / "models"
     models.mkdir(exist_ok=True)
     for path in sorted((folder / "models").iterdir()):
         path.replace(models / path.name)
     (folder / "models").rmdir()
-    folder.replace(out / scene_name(index))
+    place.parent.mkdir(exist_ok=True)
+    folder.replace(place)

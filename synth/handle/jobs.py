@@ -11,6 +11,7 @@ from synth.camera.camera import Pose
 from synth.dataset.depth import decode_depth, depth_scale_mm, encode_depth
 from synth.dataset.files import plain
 from synth.dataset.generate import generate_dataset
+from synth.dataset.layout import first_object_id
 from synth.dataset.shape_truth import scene_gt_shape
 from synth.dataset.write import capture_frame
 from synth.light import light_scene
@@ -51,7 +52,9 @@ def build(spec: SceneSpec, index: int) -> BuiltScene:
         SpecError: the rocks do not fit on the ground.
     """
     model = build_scene(spec, index)
-    rocks = plain(scene_gt_shape(replace(model, poses=()), index, [])["rocks"])
+    rocks = plain(
+        scene_gt_shape(replace(model, poses=()), first_object_id(spec, index), [])["rocks"]
+    )
     return BuiltScene(model=pickle.dumps(model), rocks=rocks)
 
 
@@ -69,7 +72,7 @@ def render(spec: SceneSpec, index: int, number: int, model: bytes) -> ViewParts:
     view, capture = capture_frame(spec, index, number, scene=scene, stage=stage, renderer=renderer)
     scale_mm = depth_scale_mm(spec)
     seen = replace(scene, poses=(scene.poses[number],))
-    truth = plain(scene_gt_shape(seen, index, [view.sight()]))
+    truth = plain(scene_gt_shape(seen, first_object_id(spec, index), [view.sight()]))
     return ViewParts(
         image=capture.picture,
         depth_m=decode_depth(encode_depth(capture.depth_m, scale_mm), scale_mm),

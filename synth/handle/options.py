@@ -41,6 +41,7 @@ class SceneOptions(TypedDict, total=False):
     surface: Table
     sun: Table
     sensor: Table
+    dataset: Table
 
 
 def spec_of(source: SpecSource | None, options: Mapping[str, Any]) -> SceneSpec:

@@ -8,6 +8,7 @@ import numpy as np
 
 from synth.arrays import Floats
 from synth.errors import SpecError
+from synth.progress import counted
 from synth.rocks.family import Family, find_family
 from synth.rocks.record import RockModel
 from synth.rocks.relief import with_relief
@@ -28,7 +29,7 @@ def quarry(spec: RocksSpec, *, rng: np.random.Generator) -> list[RockModel]:
             draw_half_axes_m(spec, rng=rng),
             rng,
         )
-        for index in range(spec.count)
+        for index in counted(range(spec.count), "rocks")
     ]
 
 
@@ -99,7 +100,7 @@ def by_relief(spec: RocksSpec, *, rng: np.random.Generator) -> list[RockModel]:
             ),
             family=spec.family,
         )
-        for rms in np.linspace(*spec.relief_rms, spec.count).tolist()
+        for rms in counted(np.linspace(*spec.relief_rms, spec.count).tolist(), "rocks")
     ]
 
 
@@ -133,7 +134,7 @@ def _rounded(
         with_relief(
             rock, relief_rms=rms, degrees=spec.relief_degrees, rng=np.random.default_rng(seed)
         )
-        for rock in rocks
+        for rock in counted(rocks, "rocks under relief")
     ]
 
 

@@ -10,14 +10,15 @@ from synth.arrays import Floats
 from synth.camera.camera import Pose, RenderCamera
 from synth.camera.trajectories import camera_distance_m, camera_of, stations
 from synth.geometry.mesh import Mesh
+from synth.progress import counted
 from synth.rocks import RockModel, quarry
 from synth.scene.ground import Terrain, make_ground
 from synth.scene.placement import PlacementArea, frustum, refuse_crowd, scatter, strew
 from synth.scene.population import draw_diameters_m
 from synth.scene.settling import buried_fraction, settle, shortest_turn
-from synth.spec import SceneSpec
+from synth.spec import SceneSpec, dataset_of
 
-_LYING, _GROUND, _POPULATION = 1, 2, 3  # children of the scene's seed
+_LYING, _GROUND, _POPULATION, _SHARED = 1, 2, 3, 12  # children of the scene's seed
 _ROOM_M = 0.4  # kept free of a population's rocks round the foot of each station
 _CROWD, _SAMPLE = 24, 12  # more rocks than the first are tried with the second before all are made
 _FOOT = 0.15  # vertices in this lowest share of a rock's height are its foot
@@ -77,7 +78,7 @@ def build_scene(spec: SceneSpec, index: int) -> SceneModel:
     )
     if counted and spec.rocks.count > _CROWD:
         _refuse_crowd(spec, yard, ground, rng=np.random.default_rng([spec.seed, index]))
-    rocks = quarry(spec.rocks, rng=rng) if counted else _population(spec, index)
+    rocks = _rocks(spec, index, rng=rng)
     falling = None if spec.ground.resting == "flattest" else lying
     standing = [_stood(rock, ground, rng=rng, falling=falling) for rock in rocks]
     meshes = [one.mesh for one in standing]
@@ -98,11 +99,20 @@ def _child(spec: SceneSpec, index: int, key: int) -> np.random.Generator:
     return np.random.default_rng([spec.seed, index, key])
 
 
+def _rocks(spec: SceneSpec, index: int, *, rng: np.random.Generator) -> list[RockModel]:
+    """Scene's own rocks, or those that all scenes of the dataset share."""
+    counted = spec.population.kind == "count"
+    if dataset_of(spec).shared_rocks:
+        shared = _child(spec, 0, _SHARED)
+        return quarry(spec.rocks, rng=shared) if counted else _population(spec, 0)
+    return quarry(spec.rocks, rng=rng) if counted else _population(spec, index)
+
+
 def _population(spec: SceneSpec, index: int) -> list[RockModel]:
     """Population's rocks, largest first; D is the mean of length and width, a + b."""
     rng = _child(spec, index, _POPULATION)
     rocks = []
-    for diameter_m in draw_diameters_m(spec.population, rng=rng):
+    for diameter_m in counted(draw_diameters_m(spec.population, rng=rng).tolist(), "rocks"):
         ratio = rng.uniform(*spec.rocks.b_over_a)
         longest_m = 2.0 * diameter_m / (1.0 + ratio)
         one = msgspec.structs.replace(

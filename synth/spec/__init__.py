@@ -4,10 +4,11 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 import msgspec
-from msgspec import Meta, Struct
+from msgspec import UNSET, Meta, Struct, UnsetType
 
 from synth.errors import SpecError
 from synth.spec.complaint import complaint
+from synth.spec.dataset import DatasetSpec
 from synth.spec.ground import GroundSpec
 from synth.spec.population import PopulationSpec
 from synth.spec.rocks import RocksSpec
@@ -36,6 +37,7 @@ class SceneSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     sun: SunSpec = SunSpec()
     noise: NoiseSpec = NoiseSpec()
     sensor: SensorSpec = SensorSpec()
+    dataset: DatasetSpec | UnsetType = UNSET  # not written to manifests unless it is given
 
     def __post_init__(self) -> None:
         """Reject counted rocks on a pan: none could lie in every view."""
@@ -43,6 +45,11 @@ class SceneSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
             raise ValueError(
                 'views.path: \'pan\' needs population.kind = "golombek-rapp", found "count"'
             )
+
+
+def dataset_of(spec: SceneSpec) -> DatasetSpec:
+    """Parameters of the dataset as a whole: the spec's, or the defaults."""
+    return DatasetSpec() if isinstance(spec.dataset, UnsetType) else spec.dataset
 
 
 def load_spec(path: Path) -> SceneSpec:

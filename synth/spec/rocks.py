@@ -2,6 +2,7 @@
 
 from typing import Annotated, Any, Literal, Protocol
 
+import msgspec
 from msgspec import UNSET, Meta, Struct, UnsetType
 
 from synth.errors import SpecError
@@ -15,7 +16,7 @@ from synth.spec.limits import (
 )
 from synth.spec.registry import Record, Registry, options_of
 
-Series = Literal["graded", "sphericity", "relief", "random"]
+Series = Literal["auto", "graded", "sphericity", "relief", "random"]
 
 Cuts = Annotated[int, Meta(ge=6, le=80)]
 Chips = Annotated[int, Meta(ge=0, le=200)]
@@ -24,7 +25,7 @@ Exponent = Annotated[float, Meta(ge=2, le=10)]
 Degree = Annotated[int, Meta(ge=1, le=60)]
 Files = Annotated[tuple[str, ...], Meta(max_length=1000)]
 
-_DEFAULTS = ("rounded-polyhedron", "graded")  # a family and a series that it can have
+_DEFAULTS = ("rounded-polyhedron", "auto")  # a family that can be graded, and the series
 
 
 class FamilyRecord(Record, Protocol):
@@ -91,7 +92,7 @@ class RocksSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
 
     count: Count = 6
     family: str = _DEFAULTS[0]
-    series: Series = "graded"
+    series: Series = "auto"  # auto: graded where the family can be, else random
     diameter_m: PositiveRange = (0.28, 0.42)  # 2a, the longest side of the smallest box
     b_over_a: AxisRatioRange = (0.72, 0.92)
     c_over_b: AxisRatioRange = (0.65, 0.88)
@@ -121,18 +122,24 @@ class RocksSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
             "albedo",
         ):
             check_range(name, getattr(self, name))
-        if (self.family, self.series) != _DEFAULTS or self.options is not UNSET:
-            self._check_family()
+        plain = (self.family, self.series) == _DEFAULTS and self.options is UNSET
+        series = "graded" if plain else self._checked_series()
+        msgspec.structs.force_setattr(self, "series", series)
 
-    def _check_family(self) -> None:
+    def _checked_series(self) -> Series:
+        """The series, `auto` resolved: `graded` where the family can be, else `random`."""
         try:
             family = FAMILIES.find(self.family)
         except SpecError as error:
             raise ValueError(f"family: {error}") from error
-        if self.series not in family.series:
+        series = self.series
+        if series == "auto":
+            series = "graded" if "graded" in family.series else "random"
+        if series not in family.series:
             raise ValueError(
                 f"series: expected one of {', '.join(family.series)} for the family "
-                f"{self.family!r}, found {self.series!r}"
+                f"{self.family!r}, found {series!r}"
             )
         family.check(self)
         options_of("family", family, self.options)
+        return series

@@ -10,7 +10,8 @@ import pytest
 from synth.camera.camera import PRESETS
 from synth.dataset.depth import depth_scale_mm, encode_depth
 from synth.dataset.generate import generate_dataset
-from synth.dataset.write import PARTIAL, scene_name
+from synth.dataset.layout import scene_number
+from synth.dataset.write import PARTIAL
 from synth.errors import SpecError
 from synth.scene.scene import build_scene
 from synth.spec import SceneSpec
@@ -73,9 +74,9 @@ def test_what_a_whole_dataset_has_lost_is_made_again(dataset, tmp_path, capsys, 
     out = tmp_path / "gaps"
     shutil.copytree(dataset, out)
     (out / lost).unlink()
-    before = [(out / scene_name(index)).stat().st_ino for index in range(2)]
+    before = [(out / scene_number(index)).stat().st_ino for index in range(2)]
     generate_dataset(SPEC, out, show_progress=True)
-    after = [(out / scene_name(index)).stat().st_ino for index in range(2)]
+    after = [(out / scene_number(index)).stat().st_ino for index in range(2)]
     assert [index for index in range(2) if before[index] != after[index]] == again
     assert digests(out) == digests(dataset)
     assert f"{lost} is missing" in capsys.readouterr().err.splitlines()[0]

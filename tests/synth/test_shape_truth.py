@@ -18,7 +18,7 @@ def test_outline_truth_is_what_the_camera_sees():
     stage = light_scene(scene, spec.sun)
     renderer = open_renderer(choose_backend("embree"), stage, scene.camera)
     view = render_view(renderer, stage, scene.camera, scene.poses[0], supersample=1)
-    table = scene_gt_shape(scene, 0, [view])
+    table = scene_gt_shape(scene, 1, [view])
     for instance, (rock, sight) in enumerate(zip(table["rocks"], table["views"]["0"], strict=True)):
         # The frame's plane cuts the bundle of rays askew: 1/cos of the angle off the axis. What
         # is left is perspective, 2 % at this distance, and half a pixel round 80 px, 2 %.

@@ -35,7 +35,7 @@ def test_values_are_read(tmp_path):
         ("[rocks]\ncount = 0", "rocks.count"),
         ("[rocks]\ndiameter_m = [0.4, 0.2]", "diameter_m"),
         ("[rocks]\nc_over_b = [0.001, 0.5]", "rocks.c_over_b"),
-        ('[rocks]\nfamily = "mixed"', "series"),
+        ('[rocks]\nfamily = "mixed"\nseries = "graded"', "series"),
         ('[noise]\nkind = "radar"', "noise.kind"),
         ('[camera]\npreset = "foo"', "camera.preset"),
         ("seed = ", "TOML"),

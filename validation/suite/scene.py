@@ -1,12 +1,15 @@
 """Scenes within an experiment: its seed and number of scenes, and the renderer of the machine."""
 
 import msgspec
+from msgspec import UNSET
 
 from synth.spec import SceneSpec
 
 
 def check_scene_is_single(scene: SceneSpec) -> None:
-    """Refuse a scene with a seed or a number of scenes of its own: the experiment has them.
+    """Refuse a scene with a seed, a number of scenes or a dataset of its own.
+
+    The experiment has the first two, and reads scenes in their default layout.
 
     Raises:
         ValueError: it has one.
@@ -15,6 +18,8 @@ def check_scene_is_single(scene: SceneSpec) -> None:
         raise ValueError(
             "expected seed and scenes beside the experiment's name, found one of them under scene"
         )
+    if scene.dataset is not UNSET:
+        raise ValueError("expected no table dataset under scene, found one")
 
 
 def with_renderer(scene: SceneSpec) -> SceneSpec:

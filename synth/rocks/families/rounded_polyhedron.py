@@ -6,6 +6,7 @@ import numpy as np
 
 from synth.arrays import Floats
 from synth.errors import SpecError
+from synth.progress import counted
 from synth.rocks.family import Family
 from synth.rocks.polyhedron import tangent_cuts
 from synth.rocks.record import RockModel
@@ -31,7 +32,10 @@ def _grade(
         cuts = int(rng.integers(spec.cuts[0], spec.cuts[1] + 1))
         polyhedron = tangent_cuts(targets[0][0], cuts=cuts, rng=rng)
         try:
-            return [rounded_polyhedron(polyhedron, axes, rounding=k) for axes, k in targets]
+            return [
+                rounded_polyhedron(polyhedron, axes, rounding=k)
+                for axes, k in counted(targets, "rocks")
+            ]
         except UnsettledError:
             continue
     raise SpecError(

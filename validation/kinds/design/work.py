@@ -67,7 +67,7 @@ def shots(spec: SceneSpec, experiment: DesignExperiment) -> Iterator[Shot]:
                 render_view(renderer, stages[0], lens, pose, supersample=spec.camera.supersample)
                 for pose in placed.poses
             ]
-            truth = as_scene_truth(scene_gt_shape(placed, 0, seen))
+            truth = as_scene_truth(scene_gt_shape(placed, 1, seen))
             for view, (pose, first) in enumerate(zip(placed.poses, seen, strict=True)):
                 for sun, stage in enumerate(stages):
                     light = first.light

@@ -17,6 +17,7 @@ PICTURES = {
     "segmentation_mars": "the Mars example as published, robust, and without range",
     "segmentation_cases": "best and worst views of the suite `segmentation` (minutes)",
     "findings": "shares of each cause, suite `views` (minutes)",
+    "range_noise": "estimated over true range noise by ground, from benchmarks/results.json",
     "stereo_model": "depth error by range and its autocorrelation, model and matcher",
 }
 

@@ -10,7 +10,7 @@ from synth.bed.relief.bodies import body_library
 from synth.spec.bed import BedGroundSpec, BedSpec, GrainsSpec
 
 
-def tiles(*, side_px: int, bodies: int, rounds: int) -> list[Table]:
+def tiles(*, side_px: int = 256, bodies: int = 250, rounds: int = 5) -> list[Table]:
     """Time tiles of about 200 grains in sight, without the stock of bodies, made once a process."""
     grains = GrainsSpec(median_px=(17.0, 17.0), spread=(0.4, 0.4), cover=(1.6, 1.6))
     ground = BedGroundSpec(filled=0.0)
@@ -69,15 +69,10 @@ def tiles(*, side_px: int, bodies: int, rounds: int) -> list[Table]:
     return [Table(columns, rows)]
 
 
-CASES = (
-    Case(
-        name="beds",
-        what="tiles of a gravel bed with about 200 grains in sight",
-        run=tiles,
-        sizes={
-            "smallest": {"side_px": 64, "bodies": 10, "rounds": 1},
-            "full": {"side_px": 256, "bodies": 250, "rounds": 5},
-        },
-        peer="one cv2.resize of each grain's maps to 40 × 40 px, and the JPEG",
-    ),
+BEDS_CASE = Case(
+    name="beds",
+    what="tiles of a gravel bed with about 200 grains in sight",
+    run=tiles,
+    smallest={"side_px": 64, "bodies": 10, "rounds": 1},
+    peer="one cv2.resize of each grain's maps to 40 × 40 px, and the JPEG",
 )

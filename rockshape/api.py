@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rockshape.camera.camera import Camera, PinholeLike, as_camera
+from rockshape.camera.lens import Lens, as_lens
 from rockshape.errors import InputError
-from rockshape.io import ImageContent, read_camera, read_labels, read_picture, read_points
+from rockshape.io import ImageContent, read_labels, read_lens, read_picture, read_points
 from rockshape.io.decoding.orientation import UPRIGHT
 from rockshape.io.files import MAX_PIXELS
 from rockshape.io.pixels import to_grey
@@ -22,6 +23,7 @@ from rockshape.point_grid.points import PointReading, RangeKind, points_from
 from rockshape.point_grid.units import RangeScale, parse_unit
 from rockshape.rock.instances import Instances
 from rockshape.rock.pieces import Pieces
+from rockshape.rock.rectification import rectification_of
 from rockshape.segmentation.finders import Finder
 
 
@@ -109,6 +111,7 @@ def read(
     range_kind: RangeKind | None = None,
     range_unit: str | None = None,
     camera: Path | str | None = None,
+    camera_view: str | None = None,
     labels: Path | str | None = None,
     pieces: Pieces = "split",
     max_pixels: int = MAX_PIXELS,
@@ -116,27 +119,53 @@ def read(
     """Observation of files, as `rockshape measure` reads them; `measure` takes it.
 
     The formats are those of `rockshape formats`. range_kind tells what the range file holds, if not
-    what its format and shape do; range_unit is the unit of its numbers, `mm` or `0.25mm` say. With
-    labels, `measure` measures those rocks; pieces tells what becomes of a mask without ids. An
-    image of more than max_pixels is refused.
+    what its format and shape do; range_unit is the unit of its numbers, `mm` or `0.25mm` say;
+    camera_view names one camera of a file of several. With labels, `measure` measures those rocks;
+    pieces tells what becomes of a mask without ids. An image of more than max_pixels is refused.
+    Where the camera's lens distorts or its pixels are not square, image, range and rocks are
+    resampled to those of a pinhole camera with square pixels.
     Raises: InputError, which names the file, for what cannot be read or does not fit the image.
     """
     picture = read_picture(image, max_pixels=max_pixels)
-    shape = picture.pixels.shape
-    seen = instances = None
+    shape, name = picture.pixels.shape, Path(image).name
+    lens = seen = instances = None
     with _telling_of_turning(picture):
-        known = None if camera is None else read_camera(camera, shape=shape)
+        if camera is not None:
+            lens = read_lens(camera, shape=shape, image_name=name, view=camera_view)
         if range is not None:
-            seen = read_points(range, shape=shape, camera=known, kind=range_kind, unit=range_unit)
+            seen = read_points(range, shape=shape, camera=lens, kind=range_kind, unit=range_unit)
         if labels is not None:
-            instances = read_labels(labels, shape=shape, image_name=Path(image).name, pieces=pieces)
-        observation = observe(picture.pixels, camera=known, labels=instances)
+            instances = read_labels(labels, shape=shape, image_name=name, pieces=pieces)
+        observation = _observed(picture.pixels, lens, seen, instances)
     return replace(
         observation,
-        points_m=None if seen is None else seen.points_m,
+        pixel_size_m=picture.pixel_size_m if observation.image.shape == shape[:2] else None,
+        notes=(*_turning(picture), *observation.notes),
+    )
+
+
+def _observed(
+    pixels: NDArray[np.generic],
+    lens: Lens | None,
+    seen: PointReading | None,
+    instances: Instances | None,
+) -> Observation:
+    """Observation of what was read, resampled where the lens asks for it."""
+    camera = None if lens is None else lens.pinhole
+    points_m = None if seen is None else seen.points_m
+    notes = () if instances is None else instances.notes
+    rectification = rectification_of(lens)
+    if rectification is not None:
+        camera, pixels = rectification.camera, rectification.image(pixels)
+        points_m = None if points_m is None else rectification.points(points_m)
+        instances = None if instances is None else rectification.rocks(instances)
+        size = f"{camera.width} x {camera.height}"
+        notes = (*notes, f"image resampled to {size} square pixels without distortion")
+    return replace(
+        observe(pixels, camera=camera, labels=instances),
+        points_m=points_m,
         left_out={} if seen is None else seen.left_out,
-        pixel_size_m=picture.pixel_size_m,
-        notes=(*_turning(picture), *(() if instances is None else instances.notes)),
+        notes=notes,
     )
 
 
@@ -176,7 +205,7 @@ def _points(range_m: NDArray[np.generic], camera: Camera | None, unit: str | Non
         )
     scale = RangeScale() if unit is None else parse_unit(unit)
     try:
-        return points_from(range_m, kind=kind, camera=camera, scale=scale)
+        return points_from(range_m, kind=kind, camera=as_lens(camera), scale=scale)
     except InputError as error:
         raise InputError(f"range_m: {error}") from None
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.camera.camera import Camera
+from rockshape.camera.lens import has_square_pixels
 from rockshape.errors import InputError
 from rockshape.rock.instances import Instances
 
@@ -59,6 +60,11 @@ class Observation:
         if self.camera is not None and self.camera.shape != shape:
             raise InputError(
                 f"camera: expected {shape} as the image has, found {self.camera.shape}"
+            )
+        if self.camera is not None and not has_square_pixels(self.camera):
+            raise InputError(
+                f"camera: expected square pixels, fx and fy equal to 0.5 %, found "
+                f"{self.camera.fx:g} and {self.camera.fy:g}; rockshape.read resamples files"
             )
         if self.points_m is not None and self.points_m.shape != (*shape, 3):
             raise InputError(f"points_m: expected {(*shape, 3)}, found {self.points_m.shape}")

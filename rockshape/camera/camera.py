@@ -126,6 +126,8 @@ def as_camera(like: object, *, shape: tuple[int, ...] | None = None) -> Camera:
             f"camera: distortion: expected a pinhole camera, its image, range and labels "
             f"undistorted, found {distortion}"
         )
+    if getattr(like, "skew", None):
+        raise InputError(f"camera: skew: expected none, found {like.skew}")  # type: ignore[attr-defined]
     height, width = getattr(like, "height", None), getattr(like, "width", None)
     if height is None and width is None and shape is not None:
         height, width = shape[:2]

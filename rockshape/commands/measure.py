@@ -51,7 +51,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--camera",
         type=Path,
         metavar="FILE",
-        help="camera intrinsics (JSON with fx, fy, cx, cy); needed for z-depth",
+        help="camera intrinsics, JSON with fx, fy, cx, cy say; needed for z-depth",
+    )
+    inputs.add_argument(
+        "--camera-view",
+        metavar="VIEW",
+        help="which camera of a file of several, by its number or name (default: the image's)",
     )
     inputs.add_argument(
         "--labels",

@@ -30,6 +30,7 @@ class MeasureOptions:
     range_kind: RangeKind | None
     range_unit: str | None
     camera: Path | None
+    camera_view: str | None
     labels: Path | None
     instances: Path | None
     pieces: Pieces
@@ -58,6 +59,7 @@ def measure_image(options: MeasureOptions) -> None:
         range_kind=options.range_kind,
         range_unit=options.range_unit,
         camera=options.camera,
+        camera_view=options.camera_view,
         labels=_labels(options),
         pieces=options.pieces,
         max_pixels=options.max_pixels,

@@ -12,6 +12,7 @@ from .format import magic as magic
 from .readers import read_camera as read_camera
 from .readers import read_image as read_image
 from .readers import read_labels as read_labels
+from .readers import read_lens as read_lens
 from .readers import read_picture as read_picture
 from .readers import read_pixels as read_pixels
 from .readers import read_points as read_points

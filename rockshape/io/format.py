@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from rockshape.camera.camera import Camera
+    from rockshape.camera.lens import Lens
     from rockshape.io.files import InputFile
     from rockshape.point_grid.points import RangeKind
     from rockshape.rock.instances import Instances
@@ -61,6 +62,7 @@ class ImageInfo:
     shape: tuple[int, int]  # rows, columns
     name: str = ""  # the file's name without its folder, where there is a file
     pieces: "Pieces" = "split"  # what becomes of labels that are one mask without ids
+    view: str | None = None  # of a camera file of several, as the user names it
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,10 +140,13 @@ class RangeFormat(Format):
 
 @dataclass(frozen=True, kw_only=True)
 class CameraFormat(Format):
-    """Camera format: intrinsics; without ImageInfo the file itself must tell the image's size."""
+    """Camera format: intrinsics, and a Lens where the camera is no mere pinhole.
+
+    Without ImageInfo the file itself must tell the image's size.
+    """
 
     kind: ClassVar[Kind] = "camera"
-    read: "Callable[[InputFile, ImageInfo | None], Camera]" = cannot_read
+    read: "Callable[[InputFile, ImageInfo | None], Camera | Lens]" = cannot_read
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.camera.camera import Camera
+from rockshape.camera.lens import Lens, as_lens
 from rockshape.errors import InputError
 from rockshape.io.decoding.range_raster import points_of
 from rockshape.io.files import MAX_PIXELS
@@ -72,7 +73,7 @@ def read_range(
     path: Path | str,
     *,
     shape: tuple[int, ...],
-    camera: Camera | None,
+    camera: Camera | Lens | None,
     kind: RangeKind | None = None,
     unit: str | None = None,
 ) -> NDArray[np.float64]:
@@ -84,7 +85,7 @@ def read_points(
     path: Path | str,
     *,
     shape: tuple[int, ...],
-    camera: Camera | None,
+    camera: Camera | Lens | None,
     kind: RangeKind | None = None,
     unit: str | None = None,
 ) -> PointReading:
@@ -103,19 +104,52 @@ def read_points(
     with RANGES.open(path, image_shape=info.shape) as (file, chosen):
         raster = chosen.read(file, info)
     try:
-        return points_of(raster, info, camera=camera, kind=kind, unit=unit)
+        return points_of(raster, info, camera=as_lens(camera), kind=kind, unit=unit)
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
 
 
 def read_camera(path: Path | str, *, shape: tuple[int, ...] | None = None) -> Camera:
-    """Camera intrinsics; shape, the image's, stands in where the file tells no width and height.
+    """Pinhole camera of a file; shape, the image's, stands in where the file tells no size.
 
-    Raises: InputError that names what is missing or wrong, and for a lens that distorts.
+    Raises: InputError that names what is missing or wrong, and for a lens that distorts or skews.
     """
-    info = None if shape is None else _image_info(shape)
+    lens = read_lens(path, shape=shape)
+    if not lens.is_pinhole:
+        raise InputError(
+            f"{path}: distortion: expected a pinhole camera, its image, range and labels "
+            f"undistorted, found {lens.distortion or f'skew {lens.skew_px:g} px'}"
+        )
+    return lens.pinhole
+
+
+def read_lens(
+    path: Path | str,
+    *,
+    shape: tuple[int, ...] | None = None,
+    image_name: str = "",
+    view: str | None = None,
+) -> Lens:
+    """Camera of a file with its skew, distortion and pose.
+
+    - shape: the image's, where the file tells no width and height.
+    - view: which camera of a file of several; else the one of the image's name.
+
+    Raises: InputError that names what is missing or wrong, and for a camera of another size.
+    """
+    info = None if shape is None else ImageInfo((shape[0], shape[1]), image_name, view=view)
     with CAMERAS.open(path) as (file, chosen):
-        return chosen.read(file, info)
+        try:
+            camera = chosen.read(file, info)
+        except InputError as error:
+            reason = str(error).removeprefix("camera: ").removeprefix(f"{path}: ")
+            raise InputError(f"{path}: {reason}") from None
+    lens = Lens(camera) if isinstance(camera, Camera) else camera
+    if info is not None and lens.shape != info.shape:
+        raise InputError(
+            f"{path}: camera: expected {info.shape} as the image has, found {lens.shape}"
+        )
+    return lens
 
 
 def _image_info(shape: tuple[int, ...], name: str = "") -> ImageInfo:

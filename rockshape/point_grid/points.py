@@ -7,8 +7,9 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.camera.camera import Camera
+from rockshape.camera.lens import Lens
 from rockshape.errors import InputError
+from rockshape.numerics.arrays import Floats
 from rockshape.point_grid.missing import missing_in_points, missing_in_raster
 from rockshape.point_grid.units import RangeScale, check_distance
 
@@ -22,7 +23,7 @@ MAX_MISS_SHARE = 0.01  # of the image's width, likewise
 class PointReading:
     """Points seen at each pixel, and how many values were no measurement."""
 
-    points_m: NDArray[np.float64]  # (rows, cols, 3), NaN where nothing was measured
+    points_m: Floats  # (rows, cols, 3), NaN where nothing was measured
     left_out: Mapping[str, int]  # pixels by reason
 
 
@@ -30,7 +31,7 @@ def points_from(
     values: NDArray[np.generic],
     *,
     kind: RangeKind,
-    camera: Camera | None,
+    camera: Lens | None,
     scale: RangeScale,
     no_data: tuple[float, ...] = (),
 ) -> PointReading:
@@ -45,36 +46,74 @@ def points_from(
     """
     if values.dtype.kind not in "fiu":
         raise InputError(f"expected numbers, found {values.dtype}")
+    if camera is not None and camera.shape != values.shape[:2]:
+        raise InputError(f"camera: expected {values.shape[:2]} as range has, found {camera.shape}")
     if values.dtype == np.float16:
         values = values.astype(np.float32)
     find_missing = missing_in_points if kind == "xyz" else missing_in_raster
     missing = find_missing(values, no_data=no_data)
-    metres = values.astype(np.float64) * scale.metres
+    known = values.astype(np.float64)
     for mask in missing.values():
-        metres[mask] = np.nan
-    points_m = metres if kind == "xyz" else _along_rays(metres, kind, camera)
+        known[mask] = np.nan
+    if kind == "disparity":  # the unit is the baseline's
+        known *= _disparity_step(values, camera)
+        points_m = _along_rays(known, kind, camera) * scale.metres
+    elif kind == "xyz":
+        points_m = known * scale.metres
+    else:
+        points_m = _along_rays(known * scale.metres, kind, camera)
     points_m[~np.isfinite(points_m).all(axis=-1)] = np.nan
     left_out = {reason: int(np.count_nonzero(mask)) for reason, mask in missing.items()}
     if kind == "xyz" and camera is not None:
+        points_m = points_m if camera.pose is None else camera.pose.to_camera(points_m)
         left_out |= _behind(points_m)
         _check_frame(points_m, camera)
     check_distance(points_m, scale)
     return PointReading(points_m, left_out)
 
 
-def _along_rays(
-    metres: NDArray[np.float64], kind: RangeKind, camera: Camera | None
-) -> NDArray[np.float64]:
+def _along_rays(values: Floats, kind: RangeKind, camera: Lens | None) -> Floats:
+    """Points (rows, cols, 3) of depth or distance, m, or of disparity, px."""
     if camera is None:
         name = "z-depth" if kind == "depth" else kind
         raise InputError(f"{name}: expected a camera (--camera) to turn it into points, found none")
-    if kind == "depth":
-        return camera.unproject(metres)
-    rays = camera.unproject(np.ones(camera.shape))
-    return np.asarray(rays * (metres / np.sqrt((rays**2).sum(axis=-1)))[..., None])
+    rays = camera.rays()
+    if kind == "distance":
+        values = values / np.sqrt((rays**2).sum(axis=-1))
+    if kind == "disparity":
+        values = _depth_of(values, camera)
+    return np.asarray(rays * values[..., None])
 
 
-def _behind(points_m: NDArray[np.float64]) -> dict[str, int]:
+def _depth_of(disparity: Floats, camera: Lens) -> Floats:
+    """Z-depth (rows, cols), m, of disparity in px."""
+    if camera.disparity is None:
+        raise InputError(
+            "disparity: expected a baseline in the camera file (baseline_m, Q or the like), "
+            "found none"
+        )
+    if not camera.is_pinhole:
+        raise InputError(
+            "disparity: expected the camera of rectified images, found one with distortion or skew"
+        )
+    known = disparity + camera.disparity.offset_px
+    known = np.where(known > 0, known, np.nan)
+    return np.asarray(camera.pinhole.fx * camera.disparity.baseline_m / known)
+
+
+def _disparity_step(values: NDArray[np.generic], camera: Lens | None) -> float:
+    """Pixels of disparity in one of its values."""
+    if camera is None or camera.disparity is None or values.dtype.kind == "f":
+        return 1.0
+    if camera.disparity.step_px is None:
+        raise InputError(
+            "disparity in whole steps: expected disparity_scale, px a step, in the camera file "
+            "(0.0625 of OpenCV's matchers, 0.00390625 of KITTI), found none"
+        )
+    return camera.disparity.step_px
+
+
+def _behind(points_m: Floats) -> dict[str, int]:
     """Take out points behind the camera, where no pixel can see one; how many there were.
 
     Raises: InputError where most are.
@@ -93,14 +132,14 @@ def _behind(points_m: NDArray[np.float64]) -> dict[str, int]:
     return {"behind the camera": count}
 
 
-def _check_frame(points_m: NDArray[np.float64], camera: Camera) -> None:
+def _check_frame(points_m: Floats, camera: Lens) -> None:
     """Raises: InputError where the points do not project to their own pixels."""
     row, col = np.nonzero(np.isfinite(points_m[..., 2]))
     if not len(row):
         return
     misses = camera.project(points_m[row, col]) - np.column_stack([col, row])
     median = float(np.median(np.hypot(*misses.T)))
-    most = max(MAX_MISS_PX, MAX_MISS_SHARE * camera.width)
+    most = max(MAX_MISS_PX, MAX_MISS_SHARE * camera.shape[1])
     if median > most:
         raise InputError(
             f"points: expected them in the camera's frame, x right, y down, z forward, found a "

@@ -100,7 +100,7 @@ def test_images_of_every_kind_are_drawn_alike(image: np.ndarray) -> None:
         ({"range_m": np.ones((9, 9, 4))}, "found (9, 9, 4)"),
         ({"range_m": np.ones(9)}, "found (9,)"),
         ({"range_m": np.full((9, 9, 3), "far")}, "found <U3"),
-        ({"range_m": np.ones((9, 9)), "camera": solids.CAMERA}, "depth_m"),
+        ({"range_m": np.ones((9, 9)), "camera": solids.CAMERA}, "camera: expected (9, 9)"),
         ({"labels": np.ones((9, 9))}, "of float64"),
         ({"labels": np.ones(9, dtype=int)}, "labels: expected"),
         ({"labels": np.full((9, 9), -1)}, "found -1"),

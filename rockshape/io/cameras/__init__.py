@@ -1,5 +1,25 @@
 """Camera formats, a file each."""
 
-from rockshape.io.cameras import pinhole_json
+from rockshape.io.cameras import (
+    bop_scene,
+    colmap,
+    middlebury,
+    nerfstudio,
+    open3d,
+    opencv_storage,
+    pinhole_json,
+    realsense,
+    ros,
+)
 
-FORMATS = (pinhole_json.FORMAT,)
+FORMATS = (
+    pinhole_json.FORMAT,
+    bop_scene.FORMAT,
+    opencv_storage.FORMAT,
+    ros.FORMAT,
+    open3d.FORMAT,
+    nerfstudio.FORMAT,
+    colmap.FORMAT,
+    realsense.FORMAT,
+    middlebury.FORMAT,
+)

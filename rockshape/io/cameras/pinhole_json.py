@@ -4,8 +4,15 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from rockshape.camera.camera import Camera, as_camera
+from rockshape.camera.camera import as_camera
+from rockshape.camera.lens import DisparityScale, Lens
 from rockshape.errors import InputError
+from rockshape.io.decoding.intrinsics import (
+    decode_json,
+    distortion_of,
+    intrinsic_matrix,
+    lens_of,
+)
 from rockshape.io.format import CameraFormat, ImageInfo
 
 if TYPE_CHECKING:
@@ -21,34 +28,47 @@ class _Intrinsics(msgspec.Struct):
     height: int | None = None
     depth_scale: float | None = None
     depth_scale_m: float | None = None
+    skew: float = 0.0
     distortion: list[float] | None = None  # OpenCV's coefficients
+    baseline_m: float | None = None
+    disparity_offset: float = 0.0  # px
+    disparity_scale: float | None = None  # px a step
 
 
-def read_pinhole(file: "InputFile", info: ImageInfo | None) -> Camera:
+def read_pinhole(file: "InputFile", info: ImageInfo | None) -> Lens:
     """Camera of a JSON object with fx, fy, cx, cy and, if not told by the image, width and height.
 
     Other keys are ignored.
-
-    Raises:
-        InputError: names the key that is missing or wrong; or the lens distorts, so that image,
-            range and labels must be undistorted first.
+    Raises: InputError: names the key that is missing or wrong.
     """
-    try:
-        found = msgspec.json.decode(file.data, type=_Intrinsics)
-        return as_camera(found, shape=None if info is None else info.shape)
-    except (msgspec.DecodeError, UnicodeDecodeError) as error:
-        raise InputError(
-            f"{file.path}: expected JSON with fx, fy, cx, cy, width, height, found: {error}"
-        ) from None
-    except InputError as error:
-        reason = str(error).removeprefix("camera: ")
-        raise InputError(f"{file.path}: {reason}") from None
+    found = decode_json(file, _Intrinsics)
+    k = intrinsic_matrix(found.fx, found.fy, found.cx, found.cy)
+    k[0][1] = found.skew
+    shape = None if info is None else info.shape
+    distortion, found.distortion = distortion_of(found.distortion or ()), None
+    disparity = None
+    if found.baseline_m is not None:
+        disparity = DisparityScale(found.baseline_m, found.disparity_offset, found.disparity_scale)
+    elif found.disparity_scale is not None or found.disparity_offset:
+        raise InputError("camera: baseline_m: expected a number beside disparity_scale, found none")
+    found.skew = 0.0
+    pinhole = as_camera(found, shape=shape)
+    return lens_of(
+        k,
+        (pinhole.width, pinhole.height),
+        info,
+        distortion=distortion,
+        depth_scale=pinhole.depth_scale,
+        disparity=disparity,
+    )
 
 
 FORMAT = CameraFormat(
     name="pinhole JSON",
     suffixes=(".json",),
     summary="object with `fx`, `fy`, `cx`, `cy`, px; `width`, `height`, px, unless the image's; "
-    "`depth_scale`, mm a step of integer range, or `depth_scale_m`, metres a step",
+    "`depth_scale`, mm a step of integer range, or `depth_scale_m`, metres a step; `skew`, px; "
+    "`distortion`, OpenCV's coefficients; `baseline_m`, `disparity_offset`, px, and "
+    "`disparity_scale`, px a step, for disparity",
     read=read_pinhole,
 )

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from rockshape.camera.camera import Camera
+from rockshape.camera.lens import Lens
 from rockshape.errors import InputError
 from rockshape.io.format import ImageInfo, RangeRaster
 from rockshape.point_grid.points import KINDS, PointReading, RangeKind, points_from
@@ -13,7 +13,7 @@ def points_of(
     raster: RangeRaster,
     info: ImageInfo,
     *,
-    camera: Camera | None,
+    camera: Lens | None,
     kind: RangeKind | None = None,
     unit: str | None = None,
 ) -> PointReading:
@@ -33,11 +33,12 @@ def points_of(
         raise InputError(f"camera: expected {info.shape} as the image has, found {camera.shape}")
     if values.dtype.kind not in "fiu":
         raise InputError(f"expected numbers, found {values.dtype}")
+    kind = _kind(raster, values.ndim, kind)
     return points_from(
         values,
-        kind=_kind(raster, values.ndim, kind),
+        kind=kind,
         camera=camera,
-        scale=_scale(raster, camera, unit),
+        scale=_scale(raster, kind, camera, unit),
         no_data=raster.no_data,
     )
 
@@ -53,10 +54,14 @@ def _kind(raster: RangeRaster, dimensions: int, asked: RangeKind | None) -> Rang
     return chosen
 
 
-def _scale(raster: RangeRaster, camera: Camera | None, unit: str | None) -> RangeScale:
+def _scale(
+    raster: RangeRaster, kind: RangeKind, camera: Lens | None, unit: str | None
+) -> RangeScale:
     """Scale of the values; a whole number is a count of steps, whatever the file type."""
     if unit is not None:
         return parse_unit(unit)
+    if kind == "disparity":  # in px, the baseline in metres
+        return RangeScale()
     if raster.unit == "m" and not np.issubdtype(raster.values.dtype, np.integer):
         return RangeScale()
     if camera is None or camera.depth_scale is None:

@@ -6,6 +6,7 @@ from .arrays import DepthImage as DepthImage
 from .arrays import Image as Image
 from .arrays import LabelImage as LabelImage
 from .bed.bed import Bed as Bed
+from .bed.stage import render_bed as render_bed
 from .camera.camera import Pose as Pose
 from .camera.camera import RenderCamera as RenderCamera
 from .errors import MissingBackendError as MissingBackendError

@@ -7,6 +7,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from synth.arrays import Singles
 from synth.bed.bed import Bed
 from synth.bed.picture.albedo import (
     RockLook,
@@ -23,8 +24,6 @@ from synth.bed.relief.packing import Footprint, Grain, HeightField, pack
 from synth.bed.relief.sizes import draw_grains
 from synth.bed.table import grain_table
 from synth.spec.bed import BedSpec
-
-Singles = NDArray[np.float32]
 
 _MARGIN_PX = 16  # of bed round the tile, so that its edge is lit and covered like its middle
 _STREAMS = ("ground", "grains", "packing", "looks", "light", "photograph")

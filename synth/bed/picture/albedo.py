@@ -5,11 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from synth.arrays import Floats, Singles
 from synth.bed.picture.texture import GRAIN, MOTTLE, PATTERN, PER_PX, SIDE
 from synth.spec.bed import Palette
-
-Floats = NDArray[np.float64]
-Singles = NDArray[np.float32]
 
 
 @dataclass(frozen=True)

@@ -4,12 +4,10 @@ from dataclasses import dataclass
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
 
+from synth.arrays import Singles
 from synth.bed.picture.shadows import normals_of, shadow_depth, sky_share
 from synth.spec.bed import BedLightSpec
-
-Singles = NDArray[np.float32]
 
 _BOUNCE = 0.4  # share of the reflected light that reaches what sees no sky
 _LOW_SUN = 0.25  # sine of the elevation below which level ground stays darker than white

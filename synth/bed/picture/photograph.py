@@ -6,9 +6,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from synth.arrays import Singles
 from synth.spec.bed import BedPhotoSpec
 
-Singles = NDArray[np.float32]
 Bytes = NDArray[np.uint8]
 
 _GREY = np.array([0.299, 0.587, 0.114], dtype=np.float32)

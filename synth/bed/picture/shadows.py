@@ -2,9 +2,8 @@
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
 
-Singles = NDArray[np.float32]
+from synth.arrays import Singles
 
 _SKY_STEPS = (1, 2, 4, 8, 16)  # distances at which the sky's horizon is looked for, in samples
 _SKY_DIRECTIONS = 8

@@ -5,9 +5,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from synth.arrays import Singles
 from synth.bed.relief.noise import cells, fractal, wrapped
-
-Singles = NDArray[np.float32]
 
 SIDE = 512  # samples of the maps along a side
 PER_PX = 2.0  # of them in a pixel, on a rock of 30 px

@@ -11,13 +11,10 @@ from functools import lru_cache
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
 
+from synth.arrays import Floats, Singles
 from synth.bed.relief.noise import fractal
 from synth.bed.relief.outline import DIRECTIONS, make_gauge, moments, padded
-
-Floats = NDArray[np.float64]
-Singles = NDArray[np.float32]
 
 SIDE = 96  # samples along a side of the stored square
 REACH = 1.45  # half that side, in units in which outlines lie near 1

@@ -7,10 +7,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from synth.arrays import Singles
 from synth.bed.relief.noise import cells, fractal, stones, wrapped
 from synth.spec.bed import BedGround
-
-Singles = NDArray[np.float32]
 
 SIDE = 512  # samples of the periodic tiles along a side
 SAMPLES_PER_PX = 2.0  # of theirs, at their natural size

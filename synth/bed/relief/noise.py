@@ -5,7 +5,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-Field = NDArray[np.float32]  # (side, side), both edges join
+from synth.arrays import Singles
+
+Field = Singles  # (side, side), both edges join
 
 
 def fractal(side: int, slope: float, rng: np.random.Generator, *, finest_px: float = 0.0) -> Field:

@@ -3,9 +3,9 @@
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from synth.arrays import Floats
+
 Gauge = Callable[[Floats, Floats], Floats]
 
 DIRECTIONS = 144  # corners of an outline's polygon

@@ -7,10 +7,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from synth.arrays import Floats, Singles
 from synth.bed.relief.bodies import REACH, SIDE, GrainBody
-
-Floats = NDArray[np.float64]
-Singles = NDArray[np.float32]
 
 _SAMPLES = (SIDE - 1) / (2.0 * REACH)  # of a body's maps, in a unit of length
 _CANDIDATES = 7  # most places tried for a grain, which rolls to the lowest

@@ -1,13 +1,11 @@
 """Sizes and forms of a bed's grains."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from synth.arrays import Floats
 from synth.bed.relief.bodies import GrainBody
 from synth.bed.relief.packing import Grain
 from synth.spec.bed import MAX_GRAINS, GrainsSpec
-
-Floats = NDArray[np.float64]
 
 _MANY = 64  # grains drawn at once
 _SHUFFLE = 0.9  # how far the order of dropping strays from that of falling width, in ln width

@@ -21,8 +21,8 @@ from rockshape.observation import Observation
 from rockshape.pipeline import measure as measure_observation
 from rockshape.point_grid.points import PointReading, RangeKind, points_from
 from rockshape.point_grid.units import RangeScale, parse_unit
-from rockshape.rock.instances import Instances
-from rockshape.rock.pieces import Pieces
+from rockshape.rock.instances import MAX_ID, MAX_LABEL, Instances
+from rockshape.rock.pieces import Pieces, split_pieces
 from rockshape.rock.rectification import rectification_of
 from rockshape.segmentation.finders import Finder
 
@@ -34,6 +34,7 @@ def measure(
     range_unit: str | None = None,
     camera: PinholeLike | None = None,
     labels: ArrayLike | Instances | None = None,
+    pieces: Pieces = "split",
     method: str | Method = "robust",
     find: str | Finder | None = None,
     descriptors: bool = False,
@@ -50,6 +51,8 @@ def measure(
     - camera: what took the image, any object with fx, fy, cx, cy in pixels. Needed for z-depth;
       else found from the points.
     - labels: rocks outlined already: (rows, cols) of whole numbers, 0 the ground, or Instances.
+    - pieces: what becomes of labels with a single value in several pieces, a mask without ids:
+      `split` makes each piece a rock, `keep` keeps one rock.
     - method: what is measured: `robust`, `paper`, another name in `rockshape.method.methods()`, or
       a Method.
     - find: how rocks are found: `range`, `image`, `both` or `published`, or a Finder; else as the
@@ -60,15 +63,15 @@ def measure(
     Raises: InputError where arrays do not fit each other, and where rocks are to be found by range
         and there is none.
     """
+    given = None if labels is None else _instances(labels, pieces)
     if isinstance(image, Observation):
         if range_m is not None or camera is not None or range_unit is not None:
             raise InputError("measure: expected an Observation's own range and camera, not both")
         observation = image
     else:
         observation = observe(
-            image, range_m=range_m, range_unit=range_unit, camera=camera, labels=labels
+            image, range_m=range_m, range_unit=range_unit, camera=camera, labels=given
         )
-    given = None if labels is None else _instances(labels)
     return measure_observation(
         observation, method=method, find=find, labels=given, descriptors=descriptors
     )
@@ -101,6 +104,7 @@ def observe(
         camera=known,
         colour=pixels if pixels is not None and pixels.ndim == 3 else None,
         instances=instances,
+        notes=() if instances is None else instances.notes,
     )
 
 
@@ -189,10 +193,10 @@ def _turning(picture: ImageContent) -> tuple[str, ...]:
     )
 
 
-def _instances(labels: ArrayLike | Instances) -> Instances:
+def _instances(labels: ArrayLike | Instances, pieces: Pieces = "split") -> Instances:
     if isinstance(labels, Instances):
         return labels
-    return Instances.from_labels(_whole(np.asarray(labels)))
+    return split_pieces(Instances.from_labels(_whole(np.asarray(labels))), pieces)
 
 
 def _points(range_m: NDArray[np.generic], camera: Camera | None, unit: str | None) -> PointReading:
@@ -210,15 +214,13 @@ def _points(range_m: NDArray[np.generic], camera: Camera | None, unit: str | Non
         raise InputError(f"range_m: {error}") from None
 
 
-def _whole(labels: NDArray[np.generic]) -> NDArray[np.int32]:
+def _whole(labels: NDArray[np.generic]) -> NDArray[np.integer]:
     if labels.ndim != 2 or labels.dtype.kind not in "biu":
         raise InputError(
             f"labels: expected (rows, cols) of whole numbers, "
             f"found {labels.shape} of {labels.dtype}"
         )
-    numbers = labels.astype(np.int64)
-    if labels.size and not 0 <= numbers.min() <= numbers.max() <= np.iinfo(np.int32).max:
-        raise InputError(
-            f"labels: expected 0 to 2147483647, found {numbers.min()} to {numbers.max()}"
-        )
-    return numbers.astype(np.int32)
+    low, high = (int(labels.min()), int(labels.max())) if labels.size else (0, 0)
+    if low < 0 or high > MAX_ID:
+        raise InputError(f"labels: expected 0 to {MAX_ID}, found {low} to {high}")
+    return labels.astype(np.int32 if high <= MAX_LABEL else np.int64)

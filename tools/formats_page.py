@@ -57,11 +57,11 @@ def _table(kind: str, formats: tuple[Format, ...]) -> str:
 
 
 def _rows(formats: tuple[Format, ...]) -> Iterator[str]:
-    yield "| format | suffixes | access | content |"
-    yield "| --- | --- | --- | --- |"
+    yield "| format | suffixes | access | content | tested with |"
+    yield "| --- | --- | --- | --- | --- |"
     for each in formats:
         suffixes = " ".join(f"`{suffix}`" for suffix in each.suffixes)
-        yield f"| {each.name} | {suffixes} | {each.access} | {each.summary} |"
+        yield f"| {each.name} | {suffixes} | {each.access} | {each.summary} | {each.tested_with} |"
 
 
 if __name__ == "__main__":

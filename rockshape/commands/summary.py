@@ -3,9 +3,12 @@
 from collections import Counter
 from collections.abc import Sequence
 
+import numpy as np
+
 from rockshape.measurement import Measurement, Rock
 from rockshape.measures import Measure, Reason
 
+PART_APART = 0.05  # of a rock's pixels: what is told
 NO_RANGE = "no range: 3-D measures are empty; give --range FILE (and --camera FILE for z-depth)"
 
 
@@ -31,8 +34,19 @@ def summarise(measurement: Measurement) -> str:
         parts.append(f"range of {total} of {observation.image.size} pixels left out ({why})")
     if observation.pixel_size_m is not None:
         parts.append(f"pixel size {1000 * observation.pixel_size_m:.4g} mm")
+    parts += _in_pieces(measurement)
     parts += observation.notes
     return "; ".join(parts)
+
+
+def _in_pieces(measurement: Measurement) -> list[str]:
+    """Part of the line on rocks of whose pixels a part is not measured, as it lies apart."""
+    measured = {rock.number: rock.area_px for rock in measurement.rocks}
+    count = sum(
+        measured.get(each.id, 0) < (1 - PART_APART) * int(np.count_nonzero(each.mask))
+        for each in measurement.instances
+    )
+    return [f"{_counted(count, 'rock')} in pieces, the largest of each measured"] if count else []
 
 
 def _completeness(name: str, measures: Sequence[Measure], rocks: Sequence[Rock]) -> list[str]:

@@ -87,6 +87,7 @@ class Format:
     name: str  # as people call it, `PNG`
     suffixes: tuple[str, ...]  # lower-case with the dot, `.png`
     summary: str  # what such a file holds, in a line
+    tested_with: str = ""  # what wrote the files that the tests read, or the specification
     sniff: Sniff | None = None  # whether the content is of this format; None: told by suffix alone
     folder: bool = False  # whether it is a folder and no file
     read: Callable[..., Any] = cannot_read

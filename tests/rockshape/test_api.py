@@ -74,6 +74,22 @@ def test_labels_of_any_whole_type_are_taken(kind: type) -> None:
     assert measured.labels.dtype == np.int32
 
 
+def test_a_mask_without_ids_becomes_its_pieces() -> None:
+    mask = np.zeros((60, 90), dtype=bool)
+    mask[5:25, 10:40] = mask[30:50, 50:80] = True
+    for labels in (mask, 255 * mask.astype(np.uint8)):
+        measured = rockshape.measure(labels=labels)
+        assert [(rock.number, rock.area_px) for rock in measured] == [(1, 600), (2, 600)]
+        assert "2 pieces is a mask without ids" in measured.observation.notes[0]
+        kept = rockshape.measure(labels=labels, pieces="keep")
+        assert [(rock.number, rock.area_px) for rock in kept] == [(int(labels.max()), 600)]
+
+
+def test_ids_beyond_31_bits_are_kept() -> None:
+    measured = rockshape.measure(labels=np.where(DISC > 0, 2**40, 0))
+    assert [rock.number for rock in measured] == [2**40]
+
+
 @pytest.mark.parametrize(
     "image",
     [
@@ -104,7 +120,7 @@ def test_images_of_every_kind_are_drawn_alike(image: np.ndarray) -> None:
         ({"labels": np.ones((9, 9))}, "of float64"),
         ({"labels": np.ones(9, dtype=int)}, "labels: expected"),
         ({"labels": np.full((9, 9), -1)}, "found -1"),
-        ({"labels": np.full((9, 9), 2**31)}, "found 2147483648"),
+        ({"labels": np.full((9, 9), 2**63, np.uint64)}, "found 9223372036854775808"),
         ({"labels": DISC, "image": np.zeros((9, 9))}, "labels: expected (9, 9)"),
         ({"labels": DISC, "image": np.zeros(9)}, "image: expected"),
         ({"labels": DISC, "image": np.zeros(DISC.shape, dtype=np.int32)}, "8 or 16 bits"),

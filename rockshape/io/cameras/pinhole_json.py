@@ -70,5 +70,6 @@ FORMAT = CameraFormat(
     "`depth_scale`, mm a step of integer range, or `depth_scale_m`, metres a step; `skew`, px; "
     "`distortion`, OpenCV's coefficients; `baseline_m`, `disparity_offset`, px, and "
     "`disparity_scale`, px a step, for disparity",
+    tested_with="Python json",
     read=read_pinhole,
 )

@@ -19,6 +19,7 @@ FORMAT = ImageFormat(
     name="BMP",
     suffixes=(".bmp", ".dib"),
     summary="grey, colour or palette",
+    tested_with="Pillow, OpenCV",
     sniff=magic(b"BM"),
     read=decode_bmp,
 )

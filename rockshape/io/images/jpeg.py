@@ -33,6 +33,7 @@ FORMAT = ImageFormat(
     name="JPEG",
     suffixes=(".jpg", ".jpeg"),
     summary="grey or colour, 8 bits a channel, turned by its EXIF orientation",
+    tested_with="Pillow, OpenCV",
     sniff=magic(JPEG_MAGIC),
     read=decode_jpeg,
     write=encode_jpeg,

@@ -19,6 +19,7 @@ FORMAT = ImageFormat(
     name="Netpbm",
     suffixes=(".pgm", ".ppm", ".pbm", ".pnm"),
     summary="PBM, PGM and PPM: black and white, grey or colour, 8 or 16 bits, text or binary",
+    tested_with="Pillow, OpenCV, pgm(5), pbm(5)",
     sniff=magic(*(b"P%d" % number for number in range(1, 7))),
     read=decode_netpbm,
 )

@@ -21,6 +21,7 @@ FORMAT = ImageFormat(
     name="PNG",
     suffixes=(".png",),
     summary="grey, colour or palette, 1 to 16 bits a channel",
+    tested_with="Pillow, OpenCV",
     sniff=magic(PNG_MAGIC),
     read=decode_png,
     write=partial(encode_raster, ".png"),

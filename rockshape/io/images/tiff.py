@@ -58,6 +58,7 @@ FORMAT = ImageFormat(
     suffixes=(".tif", ".tiff"),
     summary="one page of any whole numbers or floats, grey, colour or palette; BigTIFF; the pixel "
     "size of GeoTIFF and ImageJ",
+    tested_with="tifffile, Pillow, OpenCV, TIFF 6.0",
     sniff=magic(*TIFF_MAGIC),
     read=decode_tiff_picture,
     write=partial(encode_raster, ".tif"),

@@ -24,6 +24,7 @@ FORMAT = ImageFormat(
     name="WebP",
     suffixes=(".webp",),
     summary="colour, 8 bits a channel, turned by its EXIF orientation",
+    tested_with="Pillow, OpenCV",
     sniff=is_webp,
     read=decode_webp,
 )

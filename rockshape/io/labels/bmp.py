@@ -20,6 +20,7 @@ FORMAT = LabelFormat(
     name="BMP",
     suffixes=(".bmp", ".dib"),
     summary="as PNG, 8 bits",
+    tested_with="Pillow, OpenCV",
     sniff=magic(b"BM"),
     read=read_bmp,
 )

@@ -55,6 +55,7 @@ FORMAT = LabelFormat(
     name="Cellpose",
     suffixes=(".npy",),
     summary="`_seg.npy`, whose `masks` are a label image; nothing in it is executed",
+    tested_with="NumPy, cellpose.io",
     sniff=is_cellpose,
     read=read_cellpose,
 )

@@ -86,5 +86,6 @@ FORMAT = LabelFormat(
     name="COCO",
     suffixes=(".json",),
     summary="JSON with images and annotations: polygons, run lengths; no crowds",
+    tested_with="pycocotools, COCO data format",
     read=read_coco,
 )

@@ -66,6 +66,7 @@ SAM = LabelFormat(
     name="Segment Anything",
     suffixes=(".json",),
     summary="list of SAM's masks as run lengths (`coco_rle`), which may overlap",
+    tested_with="pycocotools, keys of SamAutomaticMaskGenerator",
     sniff=is_sam,
     read=read_detections,
 )
@@ -73,6 +74,7 @@ RESULTS = LabelFormat(
     name="COCO results",
     suffixes=(".json",),
     summary="list of detections with polygons or run lengths, which may overlap",
+    tested_with="pycocotools",
     sniff=is_results,
     read=read_detections,
 )

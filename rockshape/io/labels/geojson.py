@@ -85,6 +85,7 @@ FORMAT = LabelFormat(
     name="GeoJSON",
     suffixes=(".geojson", ".json"),
     summary="polygons with holes in pixel coordinates, as QuPath exports them; may overlap",
+    tested_with="RFC 7946, QuPath export",
     sniff=is_geojson,
     read=read_geojson,
 )

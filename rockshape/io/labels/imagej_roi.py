@@ -76,6 +76,7 @@ ROI = LabelFormat(
     name="ImageJ ROI",
     suffixes=(".roi",),
     summary="one polygon, freehand or traced region, rectangle, oval or composite of ImageJ",
+    tested_with="roifile",
     sniff=magic(ROI_MAGIC),
     read=read_rois,
 )
@@ -83,6 +84,7 @@ ROI_SET = LabelFormat(
     name="ImageJ RoiSet",
     suffixes=(".zip",),
     summary="such regions as the ROI Manager saves them, which may overlap",
+    tested_with="roifile",
     sniff=is_roi_set,
     read=read_rois,
 )

@@ -99,6 +99,7 @@ FORMAT = LabelFormat(
     name="LabelMe",
     suffixes=(".json",),
     summary="polygons, rectangles, circles and masks of one image, which may overlap",
+    tested_with="labelme 5 label_file.py",
     sniff=is_labelme,
     read=read_labelme,
 )

@@ -70,6 +70,7 @@ FORMAT = LabelFormat(
     suffixes=(),
     summary="folder of a PNG, TIFF, BMP or NPY mask a rock, which may overlap; a number at the end "
     "of a name is its id",
+    tested_with="Pillow, tifffile, NumPy",
     folder=True,
     read=read_folder,
 )

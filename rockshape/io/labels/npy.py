@@ -24,6 +24,7 @@ FORMAT = LabelFormat(
     suffixes=(".npy",),
     summary="array (rows, cols) of whole numbers, a rock's id in each of its pixels; or a stack "
     "(n, rows, cols) of masks, which may overlap",
+    tested_with="NumPy",
     sniff=magic(NPY_MAGIC),
     read=read_npy,
 )

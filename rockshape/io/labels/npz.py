@@ -25,6 +25,7 @@ FORMAT = LabelFormat(
     name="NPZ",
     suffixes=(".npz",),
     summary="array as NPY has it, under `labels`, `masks`, `instances` or `arr_0`, or the only one",
+    tested_with="NumPy",
     sniff=magic(ZIP_MAGIC),
     read=read_npz,
 )

@@ -29,6 +29,7 @@ FORMAT = LabelFormat(
     suffixes=(".png",),
     summary="grey of 1 to 16 bits or palette indices, a rock's id in each of its pixels, 0 "
     "elsewhere; or one mask, each piece a rock",
+    tested_with="Pillow, OpenCV, ISO/IEC 15948",
     sniff=magic(PNG_MAGIC),
     read=read_png,
     write=write_png,

@@ -34,6 +34,7 @@ FORMAT = LabelFormat(
     suffixes=(".tif", ".tiff"),
     summary="whole numbers, a rock's id in each of its pixels, whatever the photometric tag says; "
     "or a page a mask, which may overlap",
+    tested_with="tifffile, Pillow, OpenCV",
     sniff=magic(*TIFF_MAGIC),
     read=read_tiff,
     write=write_tiff,

@@ -41,6 +41,7 @@ FORMAT = LabelFormat(
     name="WebP",
     suffixes=(".webp",),
     summary="lossless, grey levels as PNG has them, 8 bits",
+    tested_with="Pillow",
     sniff=is_webp,
     read=read_webp,
 )

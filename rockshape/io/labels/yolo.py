@@ -62,6 +62,7 @@ FORMAT = LabelFormat(
     name="YOLO segmentation",
     suffixes=(".txt",),
     summary="a line a rock: class, then x and y of its corners in fractions of the image's size",
+    tested_with="Ultralytics data format",
     sniff=is_yolo,
     read=read_yolo,
 )

@@ -19,6 +19,7 @@ FORMAT = RangeFormat(
     suffixes=(".npy",),
     summary="array of z-depth (rows, cols) or points (rows, cols, 3), m, or whole steps of "
     "`depth_scale`",
+    tested_with="NumPy",
     sniff=magic(NPY_MAGIC),
     read=read_npy,
 )

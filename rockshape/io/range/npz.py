@@ -24,6 +24,7 @@ FORMAT = RangeFormat(
     suffixes=(".npz",),
     summary="array `xyz` of points (rows, cols, 3), else `depth` of z-depth (rows, cols), m, "
     "or whole steps of `depth_scale`",
+    tested_with="NumPy",
     sniff=magic(ZIP_MAGIC),
     read=read_npz,
 )

@@ -26,6 +26,7 @@ FORMAT = RangeFormat(
     name="PNG",
     suffixes=(".png",),
     summary="z-depth (rows, cols), 16 bits, in steps of the camera's `depth_scale`, 0 for none",
+    tested_with="OpenCV",
     sniff=magic(PNG_MAGIC),
     read=read_png,
 )

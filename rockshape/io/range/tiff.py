@@ -53,6 +53,7 @@ FORMAT = RangeFormat(
     suffixes=(".tif", ".tiff"),
     summary="one page of z-depth (rows, cols) or points (rows, cols, 3), m, or whole steps of "
     "`depth_scale`; GDAL's no-data tag is heeded",
+    tested_with="tifffile",
     sniff=magic(*TIFF_MAGIC),
     read=read_tiff,
 )

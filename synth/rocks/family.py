@@ -8,7 +8,6 @@ import numpy as np
 from msgspec import Struct
 
 from synth.arrays import Floats
-from synth.errors import SpecError
 from synth.rocks.record import RockModel
 from synth.spec.registry import options_of
 from synth.spec.rocks import FAMILIES, RocksSpec
@@ -55,10 +54,7 @@ def find_family(name: str) -> Family:
     Raises:
         SpecError: no family has the name, or what has it is no `Family`.
     """
-    found = FAMILIES.find(name)
-    if not isinstance(found, Family):
-        raise SpecError(f"rock family {name!r}: expected a Family, found {found!r}")
-    return found
+    return FAMILIES.find_kind(name, Family)
 
 
 def register_family(family: Family) -> Family:

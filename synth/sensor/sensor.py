@@ -89,10 +89,7 @@ def find_sensor(name: str) -> Sensor:
     Raises:
         SpecError: no sensor has the name, or what has it is no `Sensor`.
     """
-    found = SENSORS.find(name)
-    if not isinstance(found, Sensor):
-        raise SpecError(f"sensor {name!r}: expected a Sensor, found {found!r}")
-    return found
+    return SENSORS.find_kind(name, Sensor)
 
 
 def register_sensor(sensor: Sensor) -> Sensor:

@@ -31,6 +31,7 @@ class Record(Protocol):
 
 
 R = TypeVar("R", bound=Record)
+K = TypeVar("K", bound=Record)
 
 
 class Registry(Generic[R]):
@@ -76,6 +77,17 @@ class Registry(Generic[R]):
                 raise SpecError(expected_one_of(name, self.names))
             self._loaded[name] = self._load(entry)
         return self._loaded[name]
+
+    def find_kind(self, name: str, kind: type[K]) -> K:
+        """Record of a name, which must be of a class.
+
+        Raises:
+            SpecError: no record has the name, or what has it is of another class.
+        """
+        found: object = self.find(name)
+        if not isinstance(found, kind):
+            raise SpecError(f"{self.what} {name!r}: expected a {kind.__name__}, found {found!r}")
+        return found
 
     def dump(self) -> bytes:
         """Registered records for another process, which must be able to import them.

@@ -2,19 +2,8 @@
 
 import pytest
 
+from validation import statistics
 from validation.paper import consistency_table, garden_correlation, garden_table, ranking_table
-from validation.statistics import (
-    across_views,
-    between_views,
-    coefficients_of_variation,
-    concordance,
-    divide_by_view_means,
-    intraclass_correlation,
-    kendall_w,
-    share_in_order,
-    tau_b,
-    within_views,
-)
 
 THREE_DIGITS = 5.1e-4  # half a unit of the third decimal, and rounding
 
@@ -29,20 +18,20 @@ THREE_DIGITS = 5.1e-4  # half a unit of the third decimal, and rounding
 )
 def test_tables_1_to_3(number, cvs, means, icc, counts) -> None:
     blocks = [consistency_table(number).block]
-    assert kendall_w(blocks) == 1.0
+    assert statistics.kendall_w(blocks) == 1.0
     views = blocks[0].values.shape[0]
-    assert concordance(blocks).p_value() == pytest.approx(1 / 6 ** (views - 1))
-    assert tau_b(between_views(blocks)) == 1.0
-    assert tau_b(within_views(blocks)) == 1.0
-    found = coefficients_of_variation(blocks)
+    assert statistics.concordance(blocks).p_value() == pytest.approx(1 / 6 ** (views - 1))
+    assert statistics.tau_b(statistics.between_views(blocks)) == 1.0
+    assert statistics.tau_b(statistics.within_views(blocks)) == 1.0
+    found = statistics.coefficients_of_variation(blocks)
     assert found == pytest.approx(cvs, abs=THREE_DIGITS)
-    normalised = coefficients_of_variation(divide_by_view_means(blocks))
+    normalised = statistics.coefficients_of_variation(statistics.divide_by_view_means(blocks))
     assert (found.mean(), normalised.mean()) == pytest.approx(means, abs=THREE_DIGITS)
-    correlation = intraclass_correlation(blocks)
+    correlation = statistics.intraclass_correlation(blocks)
     assert (correlation.icc_2_1, correlation.icc_3_1) == pytest.approx(icc, abs=THREE_DIGITS)
-    pairs = across_views(blocks)
+    pairs = statistics.across_views(blocks)
     assert (pairs.right, pairs.decided) == counts
-    assert share_in_order(pairs) == pytest.approx(counts[0] / counts[1], rel=1e-15)
+    assert statistics.share_in_order(pairs) == pytest.approx(counts[0] / counts[1], rel=1e-15)
 
 
 @pytest.mark.parametrize(

@@ -52,3 +52,17 @@ def columns_of(
     for spec in measures:
         for column, trait in spec.expected_trait.items():
             yield JudgedColumn(spec.name, column, trait, measure_of(column))
+
+
+def rock_claim(
+    experiment: str, series: str, column: JudgedColumn, *, truth: str, same_quantity: bool
+) -> Claim:
+    """Claim of a column on a truth of the rock."""
+    return Claim(
+        experiment,
+        series,
+        column.method,
+        column.name,
+        TRUTH + truth,
+        same_quantity=same_quantity,
+    )

@@ -9,7 +9,7 @@ from validation.kinds.shapes.spec import ShapeSeries, ShapesExperiment
 from validation.peers import MeasureSpec, Trait
 from validation.scores.agreement import Statistic, tau, weighted_mean
 from validation.scores.define import define
-from validation.scores.expectations import TRUTH, Claim, JudgedColumn, columns_of
+from validation.scores.expectations import Claim, JudgedColumn, columns_of, rock_claim
 from validation.scores.score import Definition, Estimate
 from validation.selfcheck.feeds import CLAIMED as FEEDS
 from validation.statistics import Block, within_views
@@ -88,14 +88,8 @@ def _claim(experiment: ShapesExperiment, series: str, column: JudgedColumn) -> C
     truth: str = column.trait
     if column.trait == "form":
         truth = next((form for form in _FORMS if _OUTLINE + form == equals), _FORMS[0])
-    return Claim(
-        experiment.name,
-        series,
-        column.method,
-        column.name,
-        TRUTH + truth,
-        same_quantity=_OUTLINE + truth == equals,
-    )
+    same = _OUTLINE + truth == equals
+    return rock_claim(experiment.name, series, column, truth=truth, same_quantity=same)
 
 
 def claims(experiment: ShapesExperiment, measures: Sequence[MeasureSpec]) -> tuple[Claim, ...]:

@@ -10,7 +10,7 @@ from validation.kinds.multiview.spec import MultiviewExperiment, Varied
 from validation.peers import MeasureSpec, Trait
 from validation.scores.agreement import ORDERS, STATISTICS, Statistic
 from validation.scores.define import define
-from validation.scores.expectations import TRUTH, Claim, JudgedColumn, columns_of
+from validation.scores.expectations import TRUTH, Claim, JudgedColumn, columns_of, rock_claim
 from validation.scores.score import VIEW_PREFIX, Better, Definition, Estimate, Key
 from validation.scores.titles import REFERENCE
 
@@ -97,14 +97,8 @@ def _of_view(statistic: Statistic) -> Statistic:
 def _of_rock(experiment: MultiviewExperiment, series: str, column: JudgedColumn) -> Claim:
     """Claim held to the solid's own truth, which no measure of an outline can equal."""
     truth = _FORM if column.trait == "form" else column.trait
-    return Claim(
-        experiment.name,
-        series,
-        column.method,
-        column.name,
-        TRUTH + truth,
-        same_quantity=column.measure is not None and truth == column.measure.equals,
-    )
+    same = column.measure is not None and truth == column.measure.equals
+    return rock_claim(experiment.name, series, column, truth=truth, same_quantity=same)
 
 
 def claims(experiment: MultiviewExperiment, measures: Sequence[MeasureSpec]) -> tuple[Claim, ...]:

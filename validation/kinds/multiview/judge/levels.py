@@ -99,38 +99,23 @@ def _slope(blocks: Sequence[Block]) -> Estimate:
     return Estimate(slope(np.ones(rocks)), int(values.size), rocks, slope)
 
 
-_LEVEL = Statistic(
-    "level",
-    "mean value",
-    "",
-    "rock views",
-    "neither",
-    lambda blocks: _pooled(*_flat(blocks, less_truth=False), _mean),
-)
-_BIAS = Statistic(
-    "bias",
-    "mean difference from the truth",
-    "",
-    "rock views",
-    "neither",
-    lambda blocks: _pooled(*_flat(blocks, less_truth=True), _mean),
-)
-_ERROR = Statistic(
-    "error",
-    "RMS difference from the truth",
-    "",
-    "rock views",
-    "lower",
-    lambda blocks: _pooled(*_flat(blocks, less_truth=True), _rms),
-)
-_SLOPE = Statistic(
-    "slope",
-    "slope of measured on true values",
-    "1",
-    "rock views",
-    "neither",
-    _slope,
-)
+def _level(blocks: Sequence[Block]) -> Estimate:
+    return _pooled(*_flat(blocks, less_truth=False), _mean)
+
+
+def _bias(blocks: Sequence[Block]) -> Estimate:
+    return _pooled(*_flat(blocks, less_truth=True), _mean)
+
+
+def _error(blocks: Sequence[Block]) -> Estimate:
+    return _pooled(*_flat(blocks, less_truth=True), _rms)
+
+
+_VIEWS = "rock views"
+_LEVEL = Statistic("level", "mean value", "", _VIEWS, "neither", _level)
+_BIAS = Statistic("bias", "mean difference from the truth", "", _VIEWS, "neither", _bias)
+_ERROR = Statistic("error", "RMS difference from the truth", "", _VIEWS, "lower", _error)
+_SLOPE = Statistic("slope", "slope of measured on true values", "1", _VIEWS, "neither", _slope)
 DIFFERENCES = (_BIAS, _ERROR, _SLOPE)
 
 

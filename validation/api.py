@@ -17,7 +17,7 @@ from validation.execution.compare import MARGIN
 from validation.execution.compare import compare as compare_runs
 from validation.execution.executors import default_jobs, local
 from validation.execution.recorded import check_paired, load_recorded
-from validation.execution.run import prepare, run_suite
+from validation.execution.run import Run, prepare, run_suite
 from validation.execution.run_lock import run_lock
 from validation.execution.store import FOLDER, UnitStore
 from validation.execution.suite_result import SuiteResult, suite_result
@@ -26,7 +26,7 @@ from validation.peers.parse import settle
 from validation.records.view_score import TrueView, ViewScore, score_view
 from validation.report import check_target, write_run
 from validation.scores.scoring import score_names
-from validation.suite.gates import check_names, gates_on
+from validation.suite.gates import Gate, check_names, gates_on
 from validation.suite.methods import with_methods
 from validation.suite.suite import Suite, load_suite
 
@@ -82,9 +82,7 @@ def _run(
     methods: Sequence[str | Method] | None,
     resume: bool,
 ) -> SuiteResult:
-    whole = suite if isinstance(suite, Suite) else load_suite(os.fspath(suite))
-    specs = tuple(settle(spec, {}) for spec in whole.measures)
-    whole = msgspec.structs.replace(whole, measures=specs)
+    whole = settled(suite)
     if isinstance(methods, str):
         raise InputError(f"methods: expected a list of names, found {methods!r}")
     chosen = whole if methods is None else with_methods(whole, methods)
@@ -93,20 +91,49 @@ def _run(
     if folder is not None:
         check_target(folder)
     ready = prepare(chosen)
-    start = time.monotonic()
     with TemporaryDirectory(prefix="rockshape-") as scratch, run_lock(folder or Path(scratch)):
-        with local(default_jobs() if jobs is None else jobs) as executor:
-            outcome = run_suite(
-                ready,
-                gates=gates_on(whole.gates, score_names(chosen)),
-                executor=executor,
-                store=UnitStore((folder or Path(scratch)) / FOLDER, keep=resume),
-                on_done=lambda _: None,
-            )
-        if folder is not None:
-            command = shlex.join(["rockshape", "validate", "run", "--suite", whole.name])
-            write_run(outcome, folder, command=command, seconds=time.monotonic() - start)
+        outcome, _ = run_prepared(
+            ready,
+            gates=gates_on(whole.gates, score_names(chosen)),
+            jobs=jobs,
+            store=UnitStore((folder or Path(scratch)) / FOLDER, keep=resume),
+            report=folder,
+            command=["rockshape", "validate", "run", "--suite", whole.name],
+        )
         return suite_result(outcome, folder)
+
+
+def settled(suite: str | os.PathLike[str] | Suite) -> Suite:
+    """Suite with its measures tried, so that their columns are known.
+
+    Raises:
+        InputError: a suite or a measure that cannot be used.
+    """
+    whole = suite if isinstance(suite, Suite) else load_suite(os.fspath(suite))
+    measures = tuple(settle(spec, {}) for spec in whole.measures)
+    return msgspec.structs.replace(whole, measures=measures)
+
+
+def run_prepared(
+    suite: Suite,
+    *,
+    gates: Sequence[Gate],
+    jobs: int | None,
+    store: UnitStore,
+    report: Path | None,
+    command: Sequence[str],
+) -> tuple[Run, float]:
+    """Run of a prepared suite on this machine and its seconds, written to a folder where asked.
+
+    The pictures of the run stay in the store.
+    """
+    start = time.monotonic()
+    with local(default_jobs() if jobs is None else jobs) as executor:
+        run = run_suite(suite, gates=gates, executor=executor, store=store, on_done=lambda _: None)
+    seconds = time.monotonic() - start
+    if report is not None:
+        write_run(run, report, command=shlex.join(command), seconds=seconds)
+    return run, seconds
 
 
 def compare(

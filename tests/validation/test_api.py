@@ -119,7 +119,7 @@ def test_a_run_has_tables_a_report_and_a_comparison(suite, tmp_path) -> None:
     done = validation.run(suite, jobs=1, out=tmp_path / "out", methods=["robust"])
     assert done.gates["score"].tolist() == ["shapes.robust.sphericity.axis_ratio.tau"]
     assert set(done.records["method"]) == {"robust"}
-    assert repr(done) == "SuiteResult('drawings': passed, 1 of 1 gates)"
+    assert repr(done) == "SuiteResult('drawings': 1 of 1 gates passed)"
     assert (tmp_path / "out" / "index.html").is_file()
     changes = validation.compare(tmp_path / "out", tmp_path / "out")
     assert len(changes) == len(done.scores)

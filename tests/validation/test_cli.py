@@ -110,7 +110,7 @@ def test_scores_and_page_name_the_renderer(runs) -> None:
     scores = json.loads((folder / "one" / "scores.json").read_text(encoding="utf-8"))
     assert (scores["passed"], scores["backend"]) == (True, "embree")
     page = (folder / "two" / "index.html").read_text(encoding="utf-8")
-    assert "✗ Failed" in page
+    assert "✗ 1 of 1 gates failed" in page
     records = pd.read_parquet(folder / "two" / "results.parquet")
     portraits = int((records["method"] == "paper").sum())  # all are matched: a row, a rock view
     assert page.count("data:image/jpeg;base64,") == 2 + 2 + portraits

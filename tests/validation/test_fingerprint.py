@@ -97,3 +97,19 @@ def test_what_judges_and_shows_a_kind_is_left_out_by_its_role() -> None:
         for module in kind.never_in_workers:
             path = ROOT / module.replace(".", "/")
             assert path.is_dir() or path.with_suffix(".py").is_file(), module
+
+
+@pytest.mark.parametrize(("edited", "moves"), [("rockshape", False), ("synth", True)])
+def test_a_view_is_keyed_by_the_code_that_makes_it(edited, moves, tmp_path, monkeypatch) -> None:
+    for package in PACKAGES:
+        (tmp_path / package).mkdir()
+        (tmp_path / package / "code.py").write_text("x = 1\n")
+    monkeypatch.setattr("validation.execution.fingerprint.files", lambda name: tmp_path / name)
+    code_digest.cache_clear()
+    before, all_before = code_digest("synth"), code_digest()
+    (tmp_path / edited / "code.py").write_text("x = 2\n")
+    code_digest.cache_clear()
+    after, all_after = code_digest("synth"), code_digest()
+    code_digest.cache_clear()
+    assert (after != before) is moves
+    assert all_after != all_before

@@ -26,7 +26,7 @@ from validation.report import check_target, write_run
 from validation.report.format import number
 from validation.report.leaderboard import leaderboard_lines
 from validation.scores.scoring import score_names
-from validation.suite.gates import check_names, gates_on
+from validation.suite.gates import check_names, gates_on, tally
 from validation.suite.methods import with_methods
 from validation.suite.suite import Suite, load_gates, load_suite
 
@@ -70,9 +70,8 @@ def _print_verdict(run: Run, out: Path, seconds: float) -> None:
             print(f"warning: fed with {check.fed}, the suite {verdict}", file=sys.stderr)
     if run.suite.measures:
         print("\n".join(leaderboard_lines(run)).strip() + "\n")
-    passed = sum(result.passed for result in run.gates)
     verdict = "passed" if run.passed else "FAILED"
-    print(f"{verdict}: {passed} of {len(run.gates)} gates in {seconds:.0f} s; {out / 'index.html'}")
+    print(f"{verdict}: {tally(run.gates)} in {seconds:.0f} s; {out / 'index.html'}")
 
 
 @contextmanager

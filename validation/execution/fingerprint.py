@@ -40,10 +40,6 @@ LEFT_OUT = frozenset(
     }
 )
 _NAME = re.compile(r"[A-Za-z0-9._-]+")
-_GROUP_PREFIXES = (
-    "rockshape.",
-    "synth.",
-)  # of the entry points by which others add to the packages
 
 
 def loadable_files(root: Path, *, left_out: Collection[str]) -> Iterator[tuple[str, Path]]:
@@ -86,12 +82,12 @@ def _normal(name: str) -> str:
     return re.sub(r"[-_.]+", "-", name).lower()
 
 
-def _plugins(distribution: Distribution) -> set[str]:
-    """Top-level modules by which a distribution adds to the packages."""
+def _plugins(distribution: Distribution, packages: Collection[str]) -> set[str]:
+    """Top-level modules by which a distribution adds to the packages, by entry points."""
     if _normal(distribution.metadata["Name"]) == "rockshape":
         return set()
-    points = distribution.entry_points
-    return {p.module.partition(".")[0] for p in points if p.group.startswith(_GROUP_PREFIXES)}
+    points = [p for p in distribution.entry_points if p.group.partition(".")[0] in packages]
+    return {point.module.partition(".")[0] for point in points}
 
 
 def _sources(module: str) -> Iterator[bytes]:
@@ -106,11 +102,11 @@ def _sources(module: str) -> Iterator[bytes]:
         yield Path(spec.origin).read_bytes()
 
 
-def _installed() -> Iterator[bytes]:
+def _installed(packages: Collection[str]) -> Iterator[bytes]:
     """Versions of what we need, and of the plug-ins their sources too."""
     needed = _required()
     for distribution in sorted(distributions(), key=lambda each: _normal(each.metadata["Name"])):
-        name, plugins = _normal(distribution.metadata["Name"]), _plugins(distribution)
+        name, plugins = _normal(distribution.metadata["Name"]), _plugins(distribution, packages)
         if name in needed or plugins:
             yield f"{name} {distribution.version}\n".encode()
         for module in sorted(plugins):
@@ -118,11 +114,12 @@ def _installed() -> Iterator[bytes]:
 
 
 @cache
-def code_digest() -> str:
-    """Hash of the files and versions that can change a unit's result."""
+def code_digest(*packages: str) -> str:
+    """Hash of the files and versions that can change what packages make; of all by default."""
+    packages = packages or PACKAGES
     digest = hashlib.sha256(platform.python_version().encode())
-    roots = [Path(str(files(package))) for package in PACKAGES]
+    roots = [Path(str(files(package))) for package in packages]
     digest.update(tree_digest(roots, left_out=left_out_files()).encode())
-    for part in _installed():
+    for part in _installed(packages):
         digest.update(part)
     return digest.hexdigest()

@@ -8,7 +8,7 @@ import pandas as pd
 
 from validation.execution.run import Run
 from validation.scores.score import Score
-from validation.suite.gates import GateResult
+from validation.suite.gates import GateResult, tally
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -20,13 +20,12 @@ class SuiteResult:
     gates: pd.DataFrame  # one row a gate: the score, its bound, what was found, whether it passed
     records: pd.DataFrame  # one row a view, method and rock: truth and measures side by side
     passed: bool  # every gate
+    tally: str  # how many gates passed or failed, in words
     report: Path | None  # folder of the report, if one was asked for
 
     def __repr__(self) -> str:
         """Suite's name and its count of passed gates."""
-        good = int(self.gates["passed"].sum())
-        verdict = "passed" if self.passed else "FAILED"
-        return f"SuiteResult({self.name!r}: {verdict}, {good} of {len(self.gates)} gates)"
+        return f"SuiteResult({self.name!r}: {self.tally})"
 
     def _repr_html_(self) -> str:
         """Gates as a table, for a notebook."""
@@ -42,6 +41,7 @@ def suite_result(run: Run, report: Path | None) -> SuiteResult:
         gates=pd.DataFrame([_gate_row(gate) for gate in run.gates], columns=_GATE),
         records=run.records,
         passed=run.passed,
+        tally=tally(run.gates),
         report=report,
     )
 

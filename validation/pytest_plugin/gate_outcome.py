@@ -5,6 +5,7 @@ import math
 from msgspec import Struct
 
 from validation.report.format import interval, number
+from validation.scores.score import Score
 from validation.suite.gates import Gate
 
 _ASCII = {"≥": ">=", "≤": "<="}
@@ -12,18 +13,15 @@ _ENDS = {"value": "", "low": "low end of the interval ", "high": "high end of th
 
 
 class GateOutcome(Struct, frozen=True, kw_only=True):
-    """A gate with the value and the 95 % interval of its score; NaN where there is none."""
+    """A gate with its score."""
 
     gate: Gate
-    title: str  # of the score
-    value: float
-    low: float
-    high: float
+    score: Score
     passed: bool
 
     def properties(self) -> list[tuple[str, object]]:
         """Properties of a test report, as JUnit has them."""
-        numbers = {"value": self.value, "low": self.low, "high": self.high}
+        numbers = {"value": self.score.value, "low": self.score.low, "high": self.score.high}
         return [
             ("score", self.gate.score),
             ("bound", f"{self.gate.relation} {self.gate.bound:g}"),
@@ -36,11 +34,11 @@ class GateOutcome(Struct, frozen=True, kw_only=True):
         gate = self.gate
         lines = {
             "expected": f"{_ENDS[gate.end]}{gate.relation} {number(gate.bound)}",
-            "found": number(self.value) if math.isfinite(self.value) else "no value",
-            "interval": interval(self.low, self.high) or "none",
+            "found": number(self.score.value) if math.isfinite(self.score.value) else "no value",
+            "interval": interval(self.score.low, self.score.high) or "none",
             "reason": gate.reason,
         }
-        told = [f"gate failed: {gate.score}", f"  {self.title}"]
+        told = [f"gate failed: {gate.score}", f"  {self.score.title}"]
         return "\n".join([*told, *(f"  {name:<9} {text}" for name, text in lines.items())])
 
 

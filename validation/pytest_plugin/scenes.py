@@ -79,7 +79,8 @@ def _identity(scene: synth.Scene) -> str:
 
 
 def _key(scene: synth.Scene, view: int, noise: str | Mapping[str, Any] | None) -> str:
-    """SHA-256 of all that a view depends on: scene, number, sensor, renderer and code."""
+    """SHA-256 of all that a view depends on: scene, number, sensor, renderer and synth's code."""
     backend = choose_backend(scene.spec.renderer)
-    text = json.dumps([code_digest(), backend, _identity(scene), view, noise], sort_keys=True)
+    parts = [code_digest("synth"), backend, _identity(scene), view, noise]
+    text = json.dumps(parts, sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()

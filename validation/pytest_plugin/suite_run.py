@@ -1,28 +1,26 @@
 """Runner of a suite in a pytest session: once, whichever process comes to it first."""
 
 import hashlib
-import shlex
-import time
 from collections.abc import Iterator
+from contextlib import nullcontext
 from pathlib import Path
 
 import msgspec
 import pytest
 
 from synth.errors import MissingBackendError
+from validation.api import run_prepared, settled
 from validation.errors import InputError, MissingPackageError, WorkerError
-from validation.execution.executors import default_jobs, local
-from validation.execution.run import Run, prepare, run_suite
+from validation.execution.run import Run, prepare
 from validation.execution.run_lock import run_lock
 from validation.execution.store import UnitStore, unit_key
 from validation.execution.units import units_of
-from validation.peers.parse import settle
 from validation.pytest_plugin.gate_outcome import GateOutcome, Outcome, SuiteError
 from validation.pytest_plugin.shared import keep_recent, kept_folder, locked, shared_folder
-from validation.report import check_target, write_run
+from validation.report import check_target
 from validation.scores.scoring import score_names
 from validation.suite.gates import GateResult, check_names
-from validation.suite.suite import Suite, load_suite
+from validation.suite.suite import Suite
 
 _EXPECTED = (InputError, MissingBackendError, MissingPackageError, WorkerError)
 _ENDING = ".outcome"
@@ -35,9 +33,7 @@ def read_suite(word: str) -> Suite:
     Raises:
         InputError: a key, a measure or a gate that cannot be used.
     """
-    suite = load_suite(word)
-    measures = tuple(settle(spec, {}) for spec in suite.measures)
-    suite = msgspec.structs.replace(suite, measures=measures)
+    suite = settled(word)
     check_names(suite.gates, score_names(suite), where=word)
     return suite
 
@@ -82,22 +78,20 @@ def _shared_outcome(suite: Suite, path: Path, config: pytest.Config) -> Outcome:
 
 
 def _run(suite: Suite, folder: Path, config: pytest.Config) -> Outcome:
-    start = time.monotonic()
     report = _report_folder(suite, config)
     suite = prepare(suite)
     store = UnitStore(folder, keep=True)
     keys = [unit_key(unit) for unit in units_of(suite)]
     cached = sum(store.has(key) for key in keys)
-    jobs = config.getoption("rockshape_jobs")
-    with local(default_jobs() if jobs is None else jobs) as executor:
-        run = run_suite(
-            suite, gates=suite.gates, executor=executor, store=store, on_done=lambda _: None
+    with nullcontext() if report is None else run_lock(report):
+        run, seconds = run_prepared(
+            suite,
+            gates=suite.gates,
+            jobs=config.getoption("rockshape_jobs"),
+            store=store,
+            report=report,
+            command=["pytest", *map(str, config.invocation_params.args)],
         )
-    seconds = time.monotonic() - start
-    if report is not None:
-        command = shlex.join(["pytest", *config.invocation_params.args])
-        with run_lock(report):
-            write_run(run, report, command=command, seconds=seconds)
     keep_recent(folder, [store.path(key) for key in keys], pattern="*/*.parquet")
     return Outcome(
         suite=suite.name,
@@ -117,14 +111,7 @@ def _run(suite: Suite, folder: Path, config: pytest.Config) -> Outcome:
 
 def _gate_outcome(run: Run, result: GateResult) -> GateOutcome:
     score = next(score for score in run.scores if score.name == result.gate.score)
-    return GateOutcome(
-        gate=result.gate,
-        title=score.title,
-        value=score.value,
-        low=score.low,
-        high=score.high,
-        passed=result.passed,
-    )
+    return GateOutcome(gate=result.gate, score=score, passed=result.passed)
 
 
 def _report_folder(suite: Suite, config: pytest.Config) -> Path | None:

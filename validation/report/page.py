@@ -12,6 +12,7 @@ from validation.report.provenance import seeds, versions
 from validation.report.section import Room, page_of
 from validation.report.template import render
 from validation.scores.scoring import all_claims
+from validation.suite.gates import tally
 
 MAX_BYTES = 5_000_000  # of the page
 SHARES = (1.0, 0.6, 0.3, 0.1, 0.0)  # of the room below, tried one after another until it fits
@@ -48,6 +49,7 @@ def _page(run: Run, share: float, *, command: str, seconds: float) -> str:
         style=_resource("page.css") + _resource("rocks.css"),
         script=_resource("page.js"),
         marks=mark_symbols(),
+        tally=tally(run.gates),
         passed=[gate for gate in run.gates if gate.passed],
         failed=[gate for gate in run.gates if not gate.passed],
         scores={score.name: score for score in run.scores},

@@ -3,7 +3,7 @@
 from validation.execution.run import Run
 from validation.report.format import interval, number
 from validation.report.leaderboard import leaderboard_lines
-from validation.suite.gates import Gate
+from validation.suite.gates import Gate, tally
 
 
 def _cell(text: str) -> str:
@@ -17,12 +17,11 @@ def _bound(gate: Gate) -> str:
 
 def summary_markdown(run: Run) -> str:
     """Verdict, the gates and the scores as Markdown tables."""
-    passed = sum(gate.passed for gate in run.gates)
     verdict = "passed" if run.passed else "FAILED"
     lines = [
         f"# {run.suite.title}",
         "",
-        f"**{verdict}**: {passed} of {len(run.gates)} gates passed"
+        f"**{verdict}**: {tally(run.gates)}"
         + (f", rendered with {run.backend}." if run.backend else "."),
         "",
         "| gate | bound | found | | reason |",

@@ -103,3 +103,10 @@ def evaluate(gates: Sequence[Gate], scores: Mapping[str, ScoreValue]) -> tuple[G
         passed = found >= gate.bound if gate.at_least is not None else found <= gate.bound
         results.append(GateResult(gate=gate, found=found, passed=passed))
     return tuple(results)
+
+
+def tally(results: Collection[GateResult]) -> str:
+    """Count of gates in words: `1 of 4 gates failed`, or `4 of 4 gates passed`."""
+    failed = sum(not result.passed for result in results)
+    verdict = "failed" if failed else "passed"
+    return f"{failed or len(results)} of {len(results)} gates {verdict}"

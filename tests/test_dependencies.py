@@ -11,8 +11,9 @@ from tools.import_graph import PACKAGES, ROOT, Source, imported_names, read_sour
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 FOLDERS = ("tests", "tools", "benchmarks")
-# benchmarks run as scripts import each other by their bare names
-OWN = {*PACKAGES, *FOLDERS, *(path.stem for path in (ROOT / "benchmarks").iterdir())}
+# tools and benchmarks run as scripts import each other by their bare names
+SCRIPTS = {path.stem for name in ("tools", "benchmarks") for path in (ROOT / name).iterdir()}
+OWN = {*PACKAGES, *FOLDERS, *SCRIPTS}
 # a plug-in for pytest is only ever imported by pytest
 BROUGHT_BY_THE_HOST = {"pytest"}
 # of the dev extra, what is run as a command or is there for the type checker

@@ -8,7 +8,7 @@ from msgspec import Meta, Struct
 
 from synth.errors import SpecError
 from synth.spec.complaint import complaint
-from synth.spec.limits import Fraction, Ratio, check_range
+from synth.spec.limits import Fraction, check_range
 from synth.spec.toml import read_toml
 
 GrainShape = Literal["cobble", "angular", "slab", "broken", "lumpy"]
@@ -21,6 +21,8 @@ Pixels = Annotated[float, Meta(ge=2, le=2000)]
 Elevation = Annotated[float, Meta(ge=3, le=90)]
 Azimuth = Annotated[float, Meta(ge=-360, le=360)]
 Quality = Annotated[int, Meta(ge=1, le=100)]
+Drawn = Annotated[float, Meta(ge=0.1, le=1)]  # thinner grains have gaps between samples
+Brightness = Annotated[float, Meta(ge=0.02, le=0.95)]
 Share = tuple[Fraction, Fraction]
 
 
@@ -50,8 +52,8 @@ class GrainsSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
         2.2,
     )  # area of all outlines over that of the ground; 2.5 leaves hardly any ground in sight
     count: Annotated[int, Meta(ge=0, le=MAX_GRAINS)] | None = None  # in place of `cover`
-    axis_ratio: tuple[Ratio, Ratio] = (0.5, 1.0)  # how bodies are drawn out in plan
-    flatness: tuple[Ratio, Ratio] = (0.4, 0.9)  # thickness over width
+    axis_ratio: tuple[Drawn, Drawn] = (0.5, 1.0)  # how bodies are drawn out in plan
+    flatness: tuple[Drawn, Drawn] = (0.4, 0.9)  # thickness over width
     shapes: Annotated[tuple[GrainShape, ...], Meta(min_length=1)] = (
         "cobble",
         "angular",
@@ -123,7 +125,7 @@ class BedLightSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True
 class BedPhotoSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """Photograph: what lies between light and file."""
 
-    brightness: tuple[Ratio, Ratio] = (0.38, 0.62)  # mean of the picture, 1 for white
+    brightness: tuple[Brightness, Brightness] = (0.38, 0.62)  # mean of the picture, 1 for white
     contrast: tuple[Annotated[float, Meta(gt=0, le=4)], Annotated[float, Meta(gt=0, le=4)]] = (
         0.9,
         1.6,

@@ -146,6 +146,27 @@ def test_count_takes_the_place_of_cover():
     assert synth.make_bed(**SMALL, grains={"count": 7}).conditions["grains_dropped"] == 7
 
 
+@pytest.mark.parametrize(
+    "extreme",
+    [
+        {"grains": {"median_px": [900, 900], "width_px": [800, 2000], "cover": [3, 3]}},
+        {"grains": {"axis_ratio": [0.1, 0.1], "flatness": [0.1, 0.1], "spread": [2, 2]}},
+        {"ground": {"filled": 1, "fill": [1, 1]}},
+        {"light": {"elevation_deg": [3, 3], "overcast": 0}},
+        {"light": {"elevation_deg": [90, 90], "overcast": 0, "azimuth_deg": [0, 0]}},
+        {"photo": {"brightness": [0.95, 0.95], "jpeg_quality": None, "blur_px": [0, 0]}},
+        {"photo": {"brightness": [0.02, 0.02], "noise": [0, 0], "sharpening": [4, 4]}},
+        {"seed": 2**63 - 1, "bodies": 1},
+    ],
+)
+def test_the_ends_of_ranges_give_finite_arrays(extreme):
+    bed = synth.make_bed({**SMALL, **extreme})
+    assert np.isfinite(bed.height_px).all()
+    assert np.isfinite(bed.normals).all()
+    assert np.isfinite(bed.albedo).all()
+    assert (bed.rocks["visible_px"] > 0).all()
+
+
 @pytest.mark.parametrize("factor", [1, 2, 3])
 def test_every_supersampling_gives_arrays_of_the_tiles_size(factor):
     bed = synth.make_bed(**{**SMALL, "supersample": factor}, seed=1)
@@ -167,6 +188,8 @@ def test_a_bed_shows_itself(bed):
         ({"grains": {"cover": [2, 1]}}, "grains.cover: expected [low, high]"),
         ({"ground": {"kinds": ["snad"]}}, "did you mean 'sand'?"),
         ({"grains": {"percentiles": [[50, 20], [40, 30]]}}, "grains.percentiles: expected two"),
+        ({"photo": {"brightness": [0.5, 1]}}, "photo.brightness[1]: expected a number from 0.02"),
+        ({"grains": {"axis_ratio": [0, 1]}}, "grains.axis_ratio[0]: expected a number from 0.1"),
         ({"spec": 3}, "spec: expected a path to a TOML file, a BedSpec or a table, found int"),
         ({"index": -1}, "index: expected 0 or more"),
     ],

@@ -12,7 +12,7 @@ from concurrent.futures import (
     ThreadPoolExecutor,
 )
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from multiprocessing import parent_process
 from multiprocessing.context import SpawnContext, SpawnProcess
 from types import ModuleType
@@ -128,15 +128,19 @@ def _one_blas_thread() -> Iterator[None]:
             del os.environ[name]
 
 
-@contextmanager
-def local(jobs: int) -> Iterator[Executor]:
-    """Processes of this machine.
+def local(jobs: int) -> AbstractContextManager[Executor]:
+    """Processes of this machine, started as the context is entered.
 
     Raises:
-        InputError: jobs is less than one.
+        InputError: jobs is less than one, before anything is started or written.
     """
     if jobs < 1:
         raise InputError(f"--jobs: expected 1 or more, found {jobs}")
+    return _local(jobs)
+
+
+@contextmanager
+def _local(jobs: int) -> Iterator[Executor]:
     with _one_blas_thread(), LocalExecutor(jobs) as executor:
         try:
             yield executor

@@ -1,6 +1,6 @@
 # `make demo` and `make test` each set up all they need first; a second run sets up nothing again.
 
-.PHONY: demo baseline compare test bench-smoke lint check-wheel example-ci setup clean
+.PHONY: hostile fuzz kill soak demo baseline compare test bench-smoke lint check-wheel example-ci setup clean
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 1)
 
@@ -18,6 +18,23 @@ baseline: demo
 
 test: .venv/.ready
 	.venv/bin/pytest --numprocesses $(JOBS)
+
+# The whole corpus of malformed inputs; a table of outcomes is printed and written to reports/hostile.
+hostile: .venv/.ready
+	.venv/bin/python -m tests.hostile --jobs $(JOBS)
+
+# Fuzzers of the readers and of measuring, for so many minutes; finds are written to reports/fuzz.
+MINUTES ?= 60
+fuzz: .venv/.ready
+	.venv/bin/python -m tests.hostile.fuzz $(MINUTES)
+
+# Runs killed at random moments or out of disk space, and resumed; 20 of each command.
+kill: .venv/.ready
+	.venv/bin/python -m tests.hostile.kill
+
+# A thousand frames in one process: memory, threads and handles stay flat.
+soak: .venv/.ready
+	.venv/bin/python -m tests.hostile.soak 1000
 
 # Every benchmark at its smallest size: that it works, not how fast it is.
 bench-smoke: .venv/.ready

@@ -15,6 +15,7 @@ from rockshape.point_grid.units import RangeScale, check_distance
 
 RangeKind = Literal["depth", "distance", "disparity", "xyz"]
 KINDS: tuple[RangeKind, ...] = get_args(RangeKind)
+MIN_DEPTH_M = 1e-6  # in front of the camera; what is nearer lies behind it but for rounding
 MAX_MISS_PX = 3.0  # median distance of points from their pixels, of points in the camera's frame
 MAX_MISS_SHARE = 0.01  # of the image's width, likewise
 
@@ -118,7 +119,7 @@ def _behind(points_m: Floats) -> dict[str, int]:
 
     Raises: InputError where most are.
     """
-    behind = points_m[..., 2] <= 0
+    behind = points_m[..., 2] <= MIN_DEPTH_M
     count = int(np.count_nonzero(behind))
     if not count:
         return {}

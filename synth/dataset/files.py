@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from synth.errors import SpecError
 from synth.geometry.mesh import Mesh
+from synth.text_file import read_text
 
 Json = Mapping[str, Any] | Sequence[Any]
 
@@ -44,7 +45,7 @@ def read_json(path: Path) -> Any:
         SpecError: the file is missing or is no JSON.
     """
     try:
-        return json.loads(path.read_text(encoding="utf-8"))
+        return json.loads(read_text(path))
     except OSError as error:
         raise SpecError(f"{path}: expected a JSON file, found {error.strerror}") from error
     except (ValueError, RecursionError) as error:

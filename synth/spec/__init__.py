@@ -69,5 +69,7 @@ def convert_spec(table: object, *, where: str) -> SceneSpec:
     """
     try:
         return msgspec.convert(table, SceneSpec)
+    except UnicodeEncodeError as error:  # of lone surrogates, which JSON can hold
+        raise SpecError(f"{where}: expected text, found {error}") from error
     except msgspec.ValidationError as error:
         raise SpecError(f"{where}: {complaint(table, SceneSpec)}") from error

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from synth.errors import SpecError
+from synth.text_file import read_text
 
 
 def read_toml(path: Path) -> dict[str, Any]:
@@ -14,7 +15,7 @@ def read_toml(path: Path) -> dict[str, Any]:
         SpecError: the file is missing or is no TOML.
     """
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
+        return tomllib.loads(read_text(path))
     except OSError as error:
         raise SpecError(f"{path}: expected a TOML file, found {error.strerror}") from error
     except UnicodeDecodeError as error:

@@ -10,6 +10,7 @@ import pandas as pd
 import pyarrow.parquet as pq
 from msgspec import Struct
 
+from synth.text_file import read_text
 from validation.errors import InputError
 from validation.records.join import RecordKey
 from validation.scores.scoring import all_claims
@@ -79,7 +80,7 @@ class _GateResult(Struct):
 
 def _document(folder: Path) -> Any:
     try:
-        return json.loads((folder / "scores.json").read_text(encoding="utf-8-sig"))
+        return json.loads(read_text(folder / "scores.json"))
     except (OSError, ValueError, RecursionError) as error:
         raise InputError(f"{folder}: {_EXPECTED}, found: {error}") from error
 

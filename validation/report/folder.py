@@ -6,6 +6,7 @@ import shutil
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from synth.text_file import read_text
 from validation.errors import InputError
 from validation.execution.recorded import FORMAT
 from validation.execution.run import Run
@@ -27,7 +28,7 @@ def _is_run(folder: Path) -> bool:
     if FOLDER in names and names <= {FOLDER, *_FILES} and is_store_or_empty(folder / FOLDER):
         return True
     try:
-        held = json.loads((folder / SCORES).read_text(encoding="utf-8"))
+        held = json.loads(read_text(folder / SCORES))
     except (OSError, ValueError):
         return False
     return isinstance(held, dict) and held.get("format") == FORMAT

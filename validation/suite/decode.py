@@ -21,6 +21,8 @@ def decode(table: object, record: type[_T], *, where: str, path: str = "") -> _T
     """
     try:
         return msgspec.convert(table, record)
+    except UnicodeEncodeError as error:  # of lone surrogates, which JSON can hold
+        raise InputError(f"{where}: expected text, found {error}") from error
     except msgspec.ValidationError as error:
         raise InputError(f"{where}: {complaint(table, record, path=path)}") from error
 

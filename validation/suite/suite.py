@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 from msgspec import Meta, Struct, field
 
+from synth.text_file import read_text
 from validation.errors import InputError
 from validation.peers import MeasureSpec, Name, Text, normalise_measures
 from validation.suite.decode import decode, decode_experiment
@@ -86,7 +87,7 @@ def _parse(text: str, *, where: str) -> dict[str, Any]:
 
 def _read(path: Path) -> str:
     try:
-        return path.read_text(encoding="utf-8")
+        return read_text(path)
     except OSError as error:
         raise InputError(f"{path}: expected a TOML file, found {error.strerror}") from error
     except UnicodeDecodeError as error:

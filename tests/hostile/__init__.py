@@ -1,0 +1,1 @@
+"""Hostile inputs: corpus, fuzzers, kill tests and soak; see docs/security.md."""

@@ -1,0 +1,118 @@
+"""Sample of the corpus and of the fuzzers; `make hostile` and `make fuzz` run the whole."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+
+import rockshape
+from rockshape.cli import main
+from rockshape.io import read_range
+from tests.hostile import fuzz, kill, soak
+from tests.hostile import seeds as seeds_module
+from tests.hostile.cases import SHARES, SIZE, cases
+from tests.hostile.judge import Bench
+from tests.hostile.seeds import readable_formats, seeds, seeds_of
+
+SAMPLE = 24
+
+
+@pytest.fixture
+def bench():
+    here = Path.cwd()
+    found = Bench()
+    yield found
+    os.chdir(here)
+    found.close()
+
+
+def test_the_corpus_is_the_same_each_time_and_covers_every_format_and_command() -> None:
+    whole = list(cases())
+    assert len(whole) >= 1500
+    assert whole[::50] == list(cases())[::50]
+    assert sum(SHARES.values()) == pytest.approx(1)
+    assert {case.command for case in whole} == {
+        "measure", "synth scene", "synth shapes", "validate run", "validate compare", "formats",
+    }  # fmt: skip
+    names = {case.name for case in whole}
+    for one in readable_formats():
+        assert {f"{one.name} damaged", f"{one.name} odd"} <= names
+    assert len(whole) == SIZE
+
+
+def test_seeds_are_read(tmp_path) -> None:
+    for index, seed in enumerate(seeds()):
+        path = tmp_path / f"seed{index}{seed.suffix}"
+        path.write_bytes(seed.data)
+        if seed.suffix != ".zip":
+            fuzz.read_file(seed.kind, path)
+    assert all(seeds_of(one) for one in readable_formats())
+
+
+def test_a_sample_of_the_corpus_is_read_or_refused_in_one_line(bench) -> None:
+    chosen = [case for case in cases(count=400) if case.kind not in ("run", "option")]
+    for case in chosen[:: len(chosen) // SAMPLE]:
+        verdict = bench.judge(case)
+        assert verdict.outcome in ("done", "refused"), (case, verdict)
+
+
+@pytest.mark.parametrize("name", fuzz.FUZZERS)
+def test_the_fuzzers_find_nothing_in_a_few_examples(name) -> None:
+    function, drawn = fuzz.FUZZERS[name]
+    few = settings(max_examples=25, deadline=None, derandomize=True)
+    few(given(*drawn)(fuzz.fresh(function)))()
+
+
+@pytest.mark.parametrize("name", kill.COMMANDS)
+def test_a_disturbed_run_is_resumed_to_the_undisturbed_bytes(name, tmp_path) -> None:
+    given_files = tmp_path / "given"
+    given_files.mkdir()
+    kill.inputs(given_files)
+    assert kill.disturbed(name, times=1, seed=3, folder=tmp_path, given=given_files) == []
+
+
+def test_frames_leave_nothing_behind() -> None:
+    before, after = soak.soak(30)
+    assert after.resident_bytes - before.resident_bytes <= soak.MAX_GROWTH_BYTES
+    assert (after.threads, after.handles) == (before.threads, before.handles)
+
+
+@pytest.mark.parametrize("depth_m", [5e-315, 1e-60, 1e-7])
+def test_points_at_the_cameras_very_plane_are_none(depth_m, tmp_path) -> None:
+    points_m = seeds_module.points_m()
+    points_m[20:26, 30:40] = (0.6, 0.1, depth_m)
+    np.save(tmp_path / "xyz.npy", points_m)
+    camera = rockshape.Camera(**seeds_module.CAMERA)
+    found = read_range(tmp_path / "xyz.npy", shape=seeds_module.SHAPE, camera=camera)
+    spoilt = np.isnan(found[..., 2])
+    assert spoilt[20:26, 30:40].all()
+    assert np.count_nonzero(spoilt) == 60
+    rockshape.measure(
+        seeds_module.image(), range_m=found, camera=camera, labels=seeds_module.labels()
+    )
+
+
+@pytest.mark.parametrize("name", ["/dev/zero", "/dev/null", "/"])
+@pytest.mark.parametrize(
+    "argv",
+    [
+        ("synth", "scene", "--spec", "{}", "out"),
+        ("synth", "scene", "--replay", "{}", "out"),
+        ("validate", "run", "--gates", "{}", "--out", "out"),
+    ],
+)
+def test_what_is_no_regular_file_is_refused(name, argv, tmp_path, monkeypatch, capsys) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main([word.replace("{}", name) for word in argv]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_a_lone_surrogate_in_a_manifest_is_refused(tmp_path, capsys) -> None:
+    manifest = tmp_path / "manifest.json"
+    manifest.write_text(
+        '{"spec": {"renderer": "\\ud800"}, "backend": "embree", "files": {}}', encoding="utf-8"
+    )
+    assert main(["synth", "scene", "--replay", str(manifest), str(tmp_path / "out")]) == 2
+    assert capsys.readouterr().err.count("\n") == 1

@@ -45,10 +45,13 @@ def make_shapes(
     knobs: Sequence[float] | None = None,
     seed: int = 0,
     jitter_rms_px: float = JITTER_RMS_PX,
+    size_px: float | None = None,
+    turn_deg: float = 0.0,
 ) -> DrawnShapes:
-    """Drawn shapes of a series: `roundness`, `sphericity`, `both` or the chart `krumbein`.
+    """Drawn shapes of a series: `roundness`, `sphericity`, `both`, `krumbein`, `rough` or `jagged`.
 
     The series' parameter rises in `count` even steps (4 by default) or takes the values `knobs`.
+    `size_px` (30 to 1000) makes it the long side of each shape, `turn_deg` turns the shapes.
     The truth is the exact outline's, from which the pen strays by `jitter_rms_px` pixels RMS.
 
     Raises:
@@ -57,7 +60,13 @@ def make_shapes(
     if seed < 0:
         raise SpecError(f"seed: expected 0 or more, found {seed}")
     _, drawing = draw_named_series(
-        series, count=count, knobs=knobs, seed=seed, jitter_rms_px=jitter_rms_px
+        series,
+        count=count,
+        knobs=knobs,
+        seed=seed,
+        jitter_rms_px=jitter_rms_px,
+        size_px=size_px,
+        turn_deg=turn_deg,
     )
     truth = pd.DataFrame(drawing.rows).rename(columns={"rock": "id"}).astype({"id": int})
     truth.insert(1, "series", series)
@@ -70,6 +79,8 @@ def make_shapes(
         knobs=None if knobs is None else tuple(knobs),
         seed=seed,
         jitter_rms_px=jitter_rms_px,
+        size_px=size_px,
+        turn_deg=turn_deg,
     )
 
 

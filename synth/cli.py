@@ -96,6 +96,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     shapes.add_argument("out", metavar="OUT", type=Path, help="folder of the drawing")
     shapes.add_argument("--series", metavar="NAME", required=True, help=_listed(SERIES_NAMES))
     shapes.add_argument("--count", metavar="N", type=int, help="number of shapes (default 4)")
+    shapes.add_argument("--size", metavar="PX", type=float, help="long side of every shape")
+    shapes.add_argument(
+        "--turn", metavar="DEG", type=float, default=0.0, help="anticlockwise turn (default 0)"
+    )
     shapes.add_argument(
         "--knobs", metavar="V,V,…", help="values of the series' parameter, in place of even steps"
     )
@@ -134,6 +138,8 @@ def _run_shapes(args: argparse.Namespace) -> int:
             knobs=_numbers("--knobs", args.knobs),
             seed=args.seed,
             jitter_rms_px=args.jitter,
+            size_px=args.size,
+            turn_deg=args.turn,
         )
     except SpecError as error:
         raise SpecError(_named_as_option(str(error))) from error
@@ -172,7 +178,14 @@ def _import_plugin(name: str) -> None:
 def _named_as_option(text: str) -> str:
     """Complaint about an argument of `write_series` with the option's name."""
     name, _, rest = text.partition(":")
-    options = {"series": "series", "count": "count", "knobs": "knobs", "jitter_rms_px": "jitter"}
+    options = {
+        "series": "series",
+        "count": "count",
+        "knobs": "knobs",
+        "jitter_rms_px": "jitter",
+        "size_px": "size",
+        "turn_deg": "turn",
+    }
     return f"--{options[name]}:{rest}" if name in options else text
 
 

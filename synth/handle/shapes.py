@@ -27,6 +27,8 @@ class DrawnShapes:
     knobs: tuple[float, ...] | None
     seed: int
     jitter_rms_px: float
+    size_px: float | None = None
+    turn_deg: float = 0.0
 
     def write(self, folder: str | Path) -> None:
         """Write image.png, image.svg, labels.png and truth.csv into a folder.
@@ -41,6 +43,8 @@ class DrawnShapes:
             knobs=self.knobs,
             seed=self.seed,
             jitter_rms_px=self.jitter_rms_px,
+            size_px=self.size_px,
+            turn_deg=self.turn_deg,
         )
 
     def __repr__(self) -> str:

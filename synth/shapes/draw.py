@@ -10,11 +10,13 @@ from skimage.draw import polygon as polygon_pixels
 
 from synth.arrays import Floats
 from synth.errors import SpecError
-from synth.shapes.outline import axis_ratio
+from synth.shapes.outline import axis_ratio, polygon_area
+from synth.shapes.roughness import RoughOutline, rough_outline
 from synth.shapes.series import Shape, shape_series
-from synth.spec.shapes import CHART, JITTER_RMS_PX, MAX_JITTER_PX
+from synth.spec.shapes import CHART, JITTER_RMS_PX, MAX_JITTER_PX, SIZES_PX
 
-_CELL_PX = 260  # a shape's share of the row
+_CELL_PX = 260  # a shape's share of the row, unless its size is given
+_ROOM, _ROOM_PX = 1.12, 12  # of a given size's cells: share of the largest extent, and margin
 _CHART_COLUMNS = 9
 _SUBPIXELS = 4
 _PAPER, _FILL, _INK = 236, 168, 40  # grey levels
@@ -40,6 +42,7 @@ def draw_series(
     rng: np.random.Generator,
     columns: int | None = None,
     jitter_rms_px: float = JITTER_RMS_PX,
+    cell_px: int = _CELL_PX,
 ) -> Drawing:
     """Shapes in rows of so many columns (all in one by default), drawn by unsteady pen.
 
@@ -48,24 +51,30 @@ def draw_series(
     exact outline's.
     """
     across = len(shapes) if columns is None else columns
-    rows, cols = _CELL_PX * -(-len(shapes) // across), _CELL_PX * across
+    rows, cols = cell_px * -(-len(shapes) // across), cell_px * across
     image = np.full((rows, cols), _PAPER, dtype=np.uint8)
     labels = np.zeros((rows, cols), dtype=np.uint16)
     table, lines, middles = [], [], []
     for index, shape in enumerate(shapes):
         exact = shape.outline.outline_px()
-        drawn = _unsteady(_evenly_spaced(exact), jitter_rms_px, rng)
+        line = _evenly_spaced(exact)
+        rough = None
+        if shape.roughness is not None:
+            radius_px = float(np.sqrt(shape.outline.area_px2() / np.pi))
+            rough = rough_outline(line, radius_px, shape.roughness, rng)
+            line = rough.points_px
+        drawn = _unsteady(line, jitter_rms_px, rng)
         row, column = divmod(index, across)
-        middle = np.array([_CELL_PX * (column + 0.5) - 0.5, _CELL_PX * (row + 0.5) - 0.5])
+        middle = np.array([cell_px * (column + 0.5) - 0.5, cell_px * (row + 0.5) - 0.5])
         middle -= (exact.min(axis=0) + exact.max(axis=0)) / 2.0 * [1.0, -1.0]
         pixels = middle + drawn * [1.0, -1.0]
         inside = polygon_pixels(pixels[:, 1], pixels[:, 0], shape=labels.shape)
         labels[inside] = index + 1
-        corner = _CELL_PX * np.array([column, row])
-        image[corner[1] : corner[1] + _CELL_PX, corner[0] : corner[0] + _CELL_PX] = _inked(
-            pixels - corner
+        corner = cell_px * np.array([column, row])
+        image[corner[1] : corner[1] + cell_px, corner[0] : corner[0] + cell_px] = _inked(
+            pixels - corner, cell_px
         )
-        table.append(_truth(index, shape, jitter_rms_px))
+        table.append(_truth(index, shape, jitter_rms_px) | _rough_truth(rough))
         lines.append(pixels)
         middles.append(middle)
     return Drawing(
@@ -84,20 +93,41 @@ def draw_named_series(
     knobs: Sequence[float] | None = None,
     seed: int = 0,
     jitter_rms_px: float = JITTER_RMS_PX,
+    size_px: float | None = None,
+    turn_deg: float = 0.0,
 ) -> tuple[list[Shape], Drawing]:
     """Shapes of a series and their drawing, a function of the arguments alone.
 
+    `size_px` is the long side of every shape's smallest rectangle, before roughness; without it
+    the series has its own. `turn_deg` turns the shapes anticlockwise.
+
     Raises:
-        SpecError: an unknown series, or a count, values or a jitter out of range.
+        SpecError: an unknown series, or a count, values, jitter, size or turn out of range.
     """
+    low_px, high_px = SIZES_PX
+    if size_px is not None and not low_px <= size_px <= high_px:
+        raise SpecError(f"size_px: expected {low_px:g} to {high_px:g} px, found {size_px:g}")
+    if not -360.0 <= turn_deg <= 360.0:
+        raise SpecError(f"turn_deg: expected -360 to 360 degrees, found {turn_deg:g}")
     if not 0.0 <= jitter_rms_px <= MAX_JITTER_PX:
         raise SpecError(
             f"jitter_rms_px: expected 0 to {MAX_JITTER_PX:g} px, found {jitter_rms_px:g}"
         )
     rng = np.random.default_rng([seed])
     shapes = shape_series(series, count=count, knobs=knobs, rng=rng)
+    shapes = [shape.placed(size_px=size_px, turn_deg=turn_deg) for shape in shapes]
+    cell_px = _CELL_PX if size_px is None and turn_deg == 0.0 else _cell_px(shapes)
     columns = _CHART_COLUMNS if series == CHART else None
-    return shapes, draw_series(shapes, rng=rng, columns=columns, jitter_rms_px=jitter_rms_px)
+    drawing = draw_series(
+        shapes, rng=rng, columns=columns, jitter_rms_px=jitter_rms_px, cell_px=cell_px
+    )
+    return shapes, drawing
+
+
+def _cell_px(shapes: Sequence[Shape]) -> int:
+    """Side of a cell that holds each of the shapes."""
+    extent_px = max(float(np.ptp(shape.outline.outline_px(), axis=0).max()) for shape in shapes)
+    return int(np.ceil(_ROOM * extent_px)) + _ROOM_PX
 
 
 def _truth(index: int, shape: Shape, jitter_rms_px: float) -> dict[str, float]:
@@ -113,6 +143,21 @@ def _truth(index: int, shape: Shape, jitter_rms_px: float) -> dict[str, float]:
         "corner_radius_px": shape.outline.radius_px,
         "jitter_rms_px": jitter_rms_px,
         "jitter_wavelength_px": _JITTER_WAVELENGTH_PX,
+    }
+
+
+def _rough_truth(rough: RoughOutline | None) -> dict[str, float]:
+    """Truth of what is laid on the smooth outline, and of the outline under it; before jitter."""
+    if rough is None:
+        return {}
+    following = np.roll(rough.points_px, -1, axis=0)
+    return {
+        "roughness_rms_px": rough.rms_px,
+        "roughness_wavelength_low_px": rough.wavelengths_px[0],
+        "roughness_wavelength_high_px": rough.wavelengths_px[1],
+        "rough_area_px2": polygon_area(rough.points_px),
+        "rough_perimeter_px": float(np.linalg.norm(following - rough.points_px, axis=1).sum()),
+        "rough_axis_ratio": axis_ratio(rough.points_px),
     }
 
 
@@ -139,9 +184,9 @@ def _unsteady(points: Floats, rms_px: float, rng: np.random.Generator) -> Floats
     return points + jitter[:, None] * normal
 
 
-def _inked(pixels: Floats) -> NDArray[np.uint8]:
+def _inked(pixels: Floats, cell_px: int) -> NDArray[np.uint8]:
     """One shape's cell of the picture: filled, its outline drawn."""
-    fine = np.full((_CELL_PX * _SUBPIXELS, _CELL_PX * _SUBPIXELS), _PAPER, dtype=np.uint8)
+    fine = np.full((cell_px * _SUBPIXELS, cell_px * _SUBPIXELS), _PAPER, dtype=np.uint8)
     subpixels = (pixels + 0.5) * _SUBPIXELS - 0.5
     fixed = np.rint(subpixels * 2**_SHIFT_BITS).astype(np.int32).reshape(-1, 1, 2)
     cv2.fillPoly(fine, [fixed], _FILL, lineType=cv2.LINE_8, shift=_SHIFT_BITS)
@@ -154,5 +199,5 @@ def _inked(pixels: Floats) -> NDArray[np.uint8]:
         lineType=cv2.LINE_8,
         shift=_SHIFT_BITS,
     )
-    blocks = fine.reshape(_CELL_PX, _SUBPIXELS, _CELL_PX, _SUBPIXELS).mean(axis=(1, 3))
+    blocks = fine.reshape(cell_px, _SUBPIXELS, cell_px, _SUBPIXELS).mean(axis=(1, 3))
     return np.asarray(np.rint(blocks), dtype=np.uint8)

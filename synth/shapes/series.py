@@ -1,13 +1,14 @@
 """Series of shapes: angular to round, oblong to round, both at once; and a chart of all."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from synth.arrays import Floats
 from synth.errors import SpecError
 from synth.shapes.outline import RoundedPolygon, largest_disc_px, rectangle
+from synth.shapes.roughness import Roughness
 from synth.spec.shapes import CHART, SERIES_NAMES
 from synth.spec.wording import expected_one_of
 
@@ -18,6 +19,9 @@ _BOTH_SIDES = (0.35, 0.95)  # short over long side, ends of the series `both`
 _SIDES = (0.18, 0.96)  # short over long side, ends of the series `sphericity`
 _CORNER_ROUNDNESS = 0.6  # of the series `sphericity`
 _CORNERS = 7
+_WAVES = 0.03  # RMS of the series `rough`, over √(A/π)
+_DEPTHS = (0.3, 0.0)  # ends of the series `jagged`
+_JAGGED_ROUNDNESS = 0.7
 _STEPS = 400
 _ATTEMPTS = 100  # polygons drawn before the values count as impossible
 _MAX_SHAPES = 100
@@ -33,6 +37,20 @@ class Shape:
     outline: RoundedPolygon
     knob: float  # the series' own: short over long side for `sphericity`, else roundness
     sides_px: tuple[float, float]  # long and short side of the smallest rectangle
+    roughness: Roughness | None = None  # laid on the outline when it is drawn
+
+    def placed(self, *, size_px: float | None, turn_deg: float) -> "Shape":
+        """Shape with another long side, if one is given, turned anticlockwise."""
+        factor = 1.0 if size_px is None else size_px / self.sides_px[0]
+        if factor == 1.0 and turn_deg == 0.0:
+            return self
+        turned = factor * self.outline.corners_px @ _turn(np.radians(turn_deg)).T
+        long_px, short_px = self.sides_px
+        return replace(
+            self,
+            outline=RoundedPolygon(corners_px=turned, radius_px=factor * self.outline.radius_px),
+            sides_px=(factor * long_px, factor * short_px),
+        )
 
 
 @dataclass(frozen=True)
@@ -92,6 +110,25 @@ def roundness_series(knobs: Floats, rng: np.random.Generator) -> list[Shape]:
     return _settled(knobs.tolist(), [_RECTANGLE_RATIO] * len(knobs), rng)
 
 
+def rough_series(knobs: Floats, rng: np.random.Generator) -> list[Shape]:
+    """Roundness series under waves of five lengths: the knob is the smooth outline's roundness."""
+    waves = Roughness("waves", _WAVES)
+    return [replace(shape, roughness=waves) for shape in roundness_series(knobs, rng)]
+
+
+def jagged_series(knobs: Floats, rng: np.random.Generator) -> list[Shape]:
+    """Jagged series: one outline of one roundness under teeth ever less deep, the first deepest.
+
+    The knob is the teeth's mean depth over √(A/π); at 0 the outline is smooth. The deepest have
+    the angularity of the paper's figure 8.
+    """
+    smooth = _settled([_JAGGED_ROUNDNESS], [_RECTANGLE_RATIO], rng)[0]
+    return [
+        replace(smooth, knob=float(depth), roughness=Roughness("teeth", float(depth)))
+        for depth in knobs
+    ]
+
+
 def both_series(knobs: Floats, rng: np.random.Generator) -> list[Shape]:
     """Series of both: one random polygon, angular and oblong at first, round and square at last.
 
@@ -137,6 +174,8 @@ SERIES: Mapping[str, Series] = {
     "roundness": Series(roundness_series, ends=_ROUNDNESS, limits=(0.01, 0.95)),
     "sphericity": Series(sphericity_series, ends=_SIDES, limits=(0.05, 1.0)),
     "both": Series(both_series, ends=_ROUNDNESS, limits=(0.01, 0.95)),
+    "rough": Series(rough_series, ends=_ROUNDNESS, limits=(0.01, 0.95)),
+    "jagged": Series(jagged_series, ends=_DEPTHS, limits=(0.0, 0.35)),
 }
 
 

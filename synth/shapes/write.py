@@ -26,16 +26,24 @@ def write_series(
     knobs: Sequence[float] | None = None,
     seed: int = 0,
     jitter_rms_px: float = JITTER_RMS_PX,
+    size_px: float | None = None,
+    turn_deg: float = 0.0,
 ) -> None:
     """Write image.png, image.svg, labels.png and truth.csv of a series into a folder.
 
     Raises:
-        SpecError: an unknown series, a count, values or a jitter out of range, or a folder
-            that is a file, holds other files or is being written by another run.
+        SpecError: an unknown series, a count, values, jitter, size or turn out of range, or
+            a folder that is a file, holds other files or is being written by another run.
     """
     _check_free(out)
     shapes, drawing = draw_named_series(
-        series, count=count, knobs=knobs, seed=seed, jitter_rms_px=jitter_rms_px
+        series,
+        count=count,
+        knobs=knobs,
+        seed=seed,
+        jitter_rms_px=jitter_rms_px,
+        size_px=size_px,
+        turn_deg=turn_deg,
     )
     svg = svg_text(shapes, drawing.drawn_px, drawing.middles_px, shape=drawing.labels.shape)
     try:

@@ -1,0 +1,91 @@
+"""Rough and jagged drawn shapes: what lies on the outline, apart from the outline's own truth."""
+
+import cv2
+import numpy as np
+import pytest
+
+import synth
+from synth.errors import SpecError
+from synth.shapes.draw import draw_named_series
+from synth.shapes.roughness import Roughness, rough_outline
+
+
+def circle(radius_px):
+    """Return points half a pixel apart on a circle."""
+    turn = np.linspace(0.0, 2.0 * np.pi, round(4.0 * np.pi * radius_px), endpoint=False)
+    return radius_px * np.column_stack([np.cos(turn), np.sin(turn)])
+
+
+@pytest.mark.parametrize("radius_px", [15.0, 80.0, 500.0])
+def test_waves_have_the_stated_rms_and_wavelengths(radius_px):
+    waves = Roughness("waves", 0.03)
+    rough = rough_outline(circle(radius_px), radius_px, waves, np.random.default_rng(2))
+    heights = np.linalg.norm(rough.points_px - circle(radius_px).mean(axis=0), axis=1) - radius_px
+    assert np.sqrt(np.mean(heights**2)) == pytest.approx(0.03 * radius_px, rel=0.02)
+    assert rough.rms_px == pytest.approx(0.03 * radius_px, rel=1e-9)
+    power = np.abs(np.fft.rfft(heights)) ** 2
+    length_px = 0.5 * len(heights)
+    present = np.flatnonzero(power > 1e-3 * power.max())
+    low_px, high_px = rough.wavelengths_px
+    assert length_px / present.min() <= high_px * 1.01
+    assert length_px / present.max() >= low_px * 0.99
+    assert high_px / low_px > 2.0 * (4.0 if radius_px > 20.0 else 1.0)
+
+
+def test_teeth_are_cut_in_and_leave_the_tips_on_the_outline():
+    teeth = Roughness("teeth", 0.2)
+    rough = rough_outline(circle(80.0), 80.0, teeth, np.random.default_rng(3))
+    radii = np.linalg.norm(rough.points_px, axis=1)
+    assert radii.max() == pytest.approx(80.0, abs=0.05)
+    valleys = radii[4 : len(radii) // 8 * 8 : 8]
+    assert (80.0 - valleys).mean() == pytest.approx(16.0, rel=0.05)
+    assert rough.wavelengths_px == (4.0, 4.0)
+
+
+def test_the_rough_series_keeps_the_roundness_of_its_smooth_outlines():
+    smooth, rough = (
+        synth.make_shapes(name, count=4, seed=5).truth for name in ("roundness", "rough")
+    )
+    for column in ("roundness", "corner_radius_px", "area_px2", "perimeter_px"):
+        np.testing.assert_array_equal(rough[column], smooth[column])
+    assert (rough.rough_perimeter_px > smooth.perimeter_px).all()
+    np.testing.assert_allclose(rough.rough_area_px2, smooth.area_px2, rtol=0.02)
+
+
+def test_labels_hold_the_rough_outlines_area():
+    for series in ("rough", "jagged"):
+        shapes = synth.make_shapes(series, count=3, seed=1, size_px=300.0, jitter_rms_px=0.0)
+        counted = np.bincount(shapes.labels.ravel())[1:]
+        np.testing.assert_allclose(counted, shapes.truth.rough_area_px2, rtol=5e-3)
+
+
+@pytest.mark.parametrize("size_px", [30.0, 200.0, 1000.0])
+@pytest.mark.parametrize("series", ["roundness", "sphericity", "both"])
+def test_size_and_turn_move_nothing_but_size_and_turn(series, size_px):
+    plain = synth.make_shapes(series, count=2, seed=7)
+    moved = synth.make_shapes(
+        series, count=2, seed=7, size_px=size_px, turn_deg=25.0, jitter_rms_px=0.0
+    )
+    for column in ("roundness", "rectangle_ratio", "knob"):
+        np.testing.assert_allclose(moved.truth[column], plain.truth[column], rtol=1e-9)
+    for label in (1, 2):
+        rows, cols = np.nonzero(moved.labels == label)
+        points = np.column_stack([cols, rows]).astype(np.float32)
+        _, sides, _ = cv2.minAreaRect(points)
+        assert max(sides) + 1.0 == pytest.approx(size_px, abs=2.0)
+        assert len(rows) == pytest.approx(moved.truth.area_px2[label - 1], rel=0.03)
+
+
+def test_turned_corners_are_the_corners_turned():
+    plain, turned = (
+        draw_named_series("both", count=1, seed=2, turn_deg=angle)[0][0] for angle in (0.0, 90.0)
+    )
+    quarter = np.column_stack([-plain.outline.corners_px[:, 1], plain.outline.corners_px[:, 0]])
+    np.testing.assert_allclose(turned.outline.corners_px, quarter, atol=1e-9)
+
+
+def test_sizes_and_turns_out_of_range_are_refused():
+    with pytest.raises(SpecError, match="size_px: expected 30 to 1000 px, found 20"):
+        synth.make_shapes("rough", size_px=20.0)
+    with pytest.raises(SpecError, match="turn_deg: expected -360 to 360 degrees, found 400"):
+        synth.make_shapes("rough", turn_deg=400.0)

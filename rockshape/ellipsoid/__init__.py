@@ -4,6 +4,7 @@ from rockshape.ellipsoid.constrained_fit import HeldEllipsoid, Resting, fit_held
 from rockshape.ellipsoid.distance import hausdorff_m, orthogonal_distance_m
 from rockshape.ellipsoid.fit import MIN_POINTS, EllipsoidFit, fit_ellipsoid
 from rockshape.ellipsoid.half_axes import Ellipsoid
+from rockshape.ellipsoid.outliers import fit_without_outliers
 
 __all__ = [
     "MIN_POINTS",
@@ -13,6 +14,7 @@ __all__ = [
     "Resting",
     "fit_ellipsoid",
     "fit_held_ellipsoid",
+    "fit_without_outliers",
     "hausdorff_m",
     "orthogonal_distance_m",
 ]

@@ -31,6 +31,7 @@ from numpy.typing import NDArray
 from rockshape.ellipsoid import MIN_POINTS, Ellipsoid, EllipsoidFit
 from rockshape.measures.measure import Measure
 from rockshape.measures.reading import Reason
+from rockshape.numerics.robust_scale import median_scale
 from rockshape.outline.resample import even_outline
 from rockshape.rock.view import RockView
 
@@ -52,14 +53,15 @@ def ellipsoid_error_m2(fit: EllipsoidFit) -> float:
 def ellipsoid_error(
     ellipsoid: Ellipsoid, points_m: NDArray[np.float64], *, noise_m: float = 0.0
 ) -> float:
-    """RMS radial distance of points (n, 3) from an ellipsoid over its geometric mean half-axis.
+    """Robust scale of points' (n, 3) radial distances from an ellipsoid over its mean half-axis.
 
-    noise_m is the RMS distance that the range's own scatter makes; its square is taken off first,
-    and 0 is left where it is more. NaN for no points.
+    sqrt(s² - noise²)/(abc)^(1/3) with s = 1.4826 median |e|, which is the standard deviation of
+    normal distances e. noise_m is the RMS distance that the range's own scatter makes; 0 is left
+    where it is more. NaN for no points.
     """
     if len(points_m) == 0:
         return float("nan")
-    square = float(np.mean(ellipsoid.radial_distance_m(points_m) ** 2))
+    square = median_scale(ellipsoid.radial_distance_m(points_m)) ** 2
     mean_axis_m = float(np.cbrt(ellipsoid.half_axes_m.prod()))
     return float(np.sqrt(max(square - noise_m**2, 0.0))) / mean_axis_m
 
@@ -68,10 +70,11 @@ def _noise_m(rock: RockView, body: Ellipsoid) -> float:
     """RMS distance from the surface that the range's scatter makes: dz moves a point dz p.n/z."""
     if rock.noise is None:
         return 0.0
-    normals = body.to_sphere(rock.points_m) / body.half_axes_m @ body.axes
+    points_m = rock.sound_points_m
+    normals = body.to_sphere(points_m) / body.half_axes_m @ body.axes
     normals /= np.linalg.norm(normals, axis=1)[:, None]
-    depth = rock.points_m[:, 2]
-    across = rock.noise.depth_sd_m(depth) * (normals * rock.points_m).sum(axis=1) / depth
+    depth = points_m[:, 2]
+    across = rock.noise.depth_sd_m(depth) * (normals * points_m).sum(axis=1) / depth
     return float(np.sqrt(np.mean(across**2)))
 
 
@@ -80,7 +83,7 @@ def _evaluate_held(rock: RockView) -> float | Reason:
     if body is None:
         return float("nan")
     noise_m = _noise_m(rock, body)
-    error = ellipsoid_error(body, rock.points_m, noise_m=noise_m)
+    error = ellipsoid_error(body, rock.sound_points_m, noise_m=noise_m)
     hidden = noise_m > MAX_NOISE * float(np.cbrt(body.half_axes_m.prod())) or error == 0 < noise_m
     return Reason.NOT_RESOLVABLE if hidden else error
 

@@ -12,7 +12,15 @@ from rockshape.camera.silhouette import grazing_rays
 from rockshape.ellipse.arc import fit_arc
 from rockshape.ellipse.direct import Ellipse, fit_ellipse
 from rockshape.ellipse.moments import moment_ellipse
-from rockshape.ellipsoid import Ellipsoid, EllipsoidFit, Resting, fit_ellipsoid, fit_held_ellipsoid
+from rockshape.ellipsoid import (
+    Ellipsoid,
+    EllipsoidFit,
+    HeldEllipsoid,
+    Resting,
+    fit_ellipsoid,
+    fit_held_ellipsoid,
+    fit_without_outliers,
+)
 from rockshape.outline.edge import edge_of
 from rockshape.outline.extent import MIN_WIDTH_PX, feret_diameters
 from rockshape.outline.resample import PIXEL_SIGMA, form_outline, pixel_smooth, pixel_steps
@@ -120,8 +128,7 @@ class RockView:
         """The points measured on the rock, (k, 3) in the camera frame; none without range."""
         if self.grid_m is None:
             return np.empty((0, 3))
-        points = self.grid_m[self.mask]
-        return points[np.isfinite(points).all(axis=1)]
+        return self.grid_m[self._known]
 
     @cached_property
     def ellipse(self) -> Ellipse | None:
@@ -143,33 +150,76 @@ class RockView:
     @cached_property
     def held_ellipsoid(self) -> Ellipsoid | None:
         """The ellipsoid that range, silhouette and ground hold, whichever of them are known."""
-        if len(self.points_m) == 0:
-            return None
-        rays = None
-        if self.camera is not None:
-            rays = grazing_rays(self.mask, self.corner, self.camera, self.grid_m)
-        plane = None if self.ground is None else self.ground.plane
-        fit = fit_held_ellipsoid(
-            self.points_m,
-            point_sd_m=0.0 if self.noise is None else self.noise.depth_sd_m(self.points_m[:, 2]),
-            silhouette=rays,
-            ground=None if plane is None else Resting(plane.normal, plane.offset_m),
-        )
+        fit = self._held_fit[0]
         return None if fit is None or fit.bounded or not fit.converged else fit.ellipsoid
+
+    @cached_property
+    def sound_points_m(self) -> NDArray[np.float64]:
+        """The points (k, 3) without outliers: flying pixels, spikes and far points."""
+        return self.points_m[self._held_fit[1]]
+
+    @cached_property
+    def _held_fit(self) -> tuple[HeldEllipsoid | None, NDArray[np.bool_]]:
+        """Fit of the constrained ellipsoid, and which points (k,) it is made on."""
+        points_m = self.points_m
+        if len(points_m) == 0:
+            return None, np.zeros(0, dtype=np.bool_)
+        plane = None if self.ground is None else self.ground.plane
+        noise_m = None if self.noise is None else self.noise.depth_sd_m(points_m[:, 2])
+
+        def fit(sound: NDArray[np.bool_]) -> HeldEllipsoid | None:
+            return fit_held_ellipsoid(
+                points_m[sound],
+                point_sd_m=0.0 if noise_m is None else noise_m[sound],
+                silhouette=self._grazing_rays(sound),
+                ground=None if plane is None else Resting(plane.normal, plane.offset_m),
+                rank=self._rank[sound],
+            )
+
+        return fit_without_outliers(points_m, fit)
+
+    def _grazing_rays(self, sound: NDArray[np.bool_]) -> NDArray[np.float64] | None:
+        """Rays that graze the rock, by its sound points (k,); None without a camera."""
+        if self.camera is None or self.grid_m is None:
+            return None
+        grid_m = self.grid_m
+        if not sound.all():
+            grid_m = grid_m.copy()
+            grid_m[self._known] = np.where(sound[:, None], self.points_m, np.nan)
+        return grazing_rays(self.mask, self.corner, self.camera, grid_m)
+
+    @cached_property
+    def _known(self) -> NDArray[np.bool_]:
+        """Pixels (rows, cols) of the rock with a point."""
+        if self.grid_m is None:
+            return np.zeros(self.mask.shape, dtype=np.bool_)
+        return np.asarray(self.mask & np.isfinite(self.grid_m).all(axis=-1))
+
+    @cached_property
+    def _rank(self) -> NDArray[np.float64]:
+        """Random rank (k,) of each point, which stays with its pixel whichever others have one."""
+        rank = np.random.default_rng(0).random(int(self.mask.sum()))
+        return np.asarray(rank[self._known[self.mask]])
 
     @cached_property
     def relief(self) -> ResidualCurvature | None:
         """What stands out of the held ellipsoid."""
         if self.held_ellipsoid is None:
             return None
-        return measure_relief(self.held_ellipsoid, self.points_m, draws_m=self._noise_draws_m())
+        sound = self._held_fit[1]
+        draws_m = self._noise_draws_m()
+        return measure_relief(
+            self.held_ellipsoid,
+            self.sound_points_m,
+            draws_m=None if draws_m is None else draws_m[sound],
+            rank=self._rank[sound],
+        )
 
     def _noise_draws_m(self) -> NDArray[np.float64] | None:
         """Errors of depth (k, draws) like those of the points; None for exact range."""
         if self.noise is None or self.grid_m is None:
             return None
         rng = np.random.default_rng(0)
-        known = self.mask & np.isfinite(self.grid_m).all(axis=-1)
         depth = self.grid_m[..., 2]
-        draws = [self.noise.draw_m(depth, rng=rng)[known] for _ in range(NOISE_DRAWS)]
+        draws = [self.noise.draw_m(depth, rng=rng)[self._known] for _ in range(NOISE_DRAWS)]
         return np.column_stack(draws)

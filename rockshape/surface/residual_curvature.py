@@ -34,6 +34,7 @@ def measure_relief(
     points_m: NDArray[np.float64],
     *,
     draws_m: NDArray[np.float64] | None = None,
+    rank: NDArray[np.float64] | None = None,
 ) -> ResidualCurvature | None:
     """Relief of points (n, 3) in the camera frame, the camera at the origin, over an ellipsoid.
 
@@ -45,7 +46,8 @@ def measure_relief(
     mean tells sharp edges from round ones where the mean of the absolute value cannot.
 
     draws_m (n, k) are errors of z-depth like those of the points, from which the same surface
-    gives `noise_bend`. Points 6 robust standard deviations off the first surface are left out.
+    gives `noise_bend`. Of more than 4000 points those of the lowest rank (n,) are taken. Points 6
+    robust standard deviations off the first surface are left out.
 
     None where the facing points leave the surface undetermined.
     """
@@ -58,7 +60,8 @@ def measure_relief(
     if len(keep) < MIN_POINTS:
         return None
     if len(keep) > MAX_POINTS:
-        keep = keep[np.random.default_rng(0).permutation(len(keep))[:MAX_POINTS]]
+        rank = np.random.default_rng(0).random(len(points_m)) if rank is None else rank
+        keep = keep[np.argsort(rank[keep])[:MAX_POINTS]]
     # displaced along the ray by dz: y moves by S A p/z dz, and r by its part along y
     ray = points_m[keep] / points_m[keep][:, 2:] @ ellipsoid.axes.T / ellipsoid.half_axes_m
     slope = (sphere[keep] * ray).sum(axis=1) / radius[keep]

@@ -17,6 +17,7 @@ from rockshape.method import Method, find_method
 from rockshape.observation import Observation
 from rockshape.outline.descriptors import Descriptors
 from rockshape.rock.instances import Instances
+from rockshape.rock.point_fit import PointCounts
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 OUTLINE_COLOUR, ELLIPSE_COLOUR = "#ffd138", "#40b4ff"
 PLACE = ("rock", "row", "col", "area_px", "width_px", "height_px", "truncated", "visible_fraction")
 FLAGS = ("branch", "flags", "outline_sd_px")
+POINTS = tuple(PointCounts.__dataclass_fields__)
 AXES = ("axis_a_m", "axis_b_m", "axis_c_m")
 # the descriptors' columns, by the fields of the record
 DESCRIPTORS = {
@@ -58,6 +60,7 @@ class Rock:
     truncated: bool  # touches the border of the frame, or of its measured part if found by range
     visible_fraction: float  # of the fitted ellipse, in the frame and not behind a nearer rock
     outline_px: NDArray[np.float64]  # (n, 2) as (x, y), the outline that is measured
+    points: PointCounts
     ellipse: Ellipse | None
     ellipsoid: Ellipsoid | None
     readings: dict[str, Reading]  # by the measures' columns
@@ -161,7 +164,7 @@ def columns(
 def _columns(measures: tuple[Measure, ...], *, descriptors: bool, flags: bool) -> tuple[str, ...]:
     measured = tuple(measure.column for measure in measures)
     described = tuple(DESCRIPTORS.values()) if descriptors else ()
-    return (*PLACE, *AXES, *measured, "reason", *described, *(FLAGS if flags else ()))
+    return (*PLACE, *POINTS, *AXES, *measured, "reason", *described, *(FLAGS if flags else ()))
 
 
 def to_frame(measurement: Measurement, *, flags: bool = False) -> "pd.DataFrame":
@@ -196,11 +199,18 @@ def _row(rock: Rock) -> tuple[object, ...]:
     place = (rock.number, *(getattr(rock, name) for name in PLACE[1:]))
     half_axes = [np.nan] * 3 if rock.ellipsoid is None else rock.ellipsoid.half_axes_m
     described = () if rock.descriptors is None else dataclasses.astuple(rock.descriptors)
-    return (*place, *half_axes, *rock.values.values(), rock.reason, *described)
+    return (
+        *place,
+        *dataclasses.astuple(rock.points),
+        *half_axes,
+        *rock.values.values(),
+        rock.reason,
+        *described,
+    )
 
 
 def _types(names: tuple[str, ...]) -> dict[str, str]:
     """The type of each column, so that an empty table has them too."""
-    whole = dict.fromkeys(("rock", "area_px", "width_px", "height_px"), "int64")
+    whole = dict.fromkeys(("rock", "area_px", "width_px", "height_px", *POINTS), "int64")
     words = {name: "object" for name in ("reason", "branch", "flags") if name in names}
     return dict.fromkeys(names, "float64") | whole | {"truncated": "bool"} | words

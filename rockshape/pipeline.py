@@ -9,11 +9,12 @@ from numpy.typing import NDArray
 from rockshape.errors import InputError
 from rockshape.measurement import Measurement, Rock
 from rockshape.measures import Reading
-from rockshape.method import Fits, Method, find_method
+from rockshape.method import Method, find_method
 from rockshape.observation import Observation, locate_camera
 from rockshape.outline.descriptors import UNRESOLVED, Descriptors, describe_edge, describe_outline
 from rockshape.rock.blas_threads import one_blas_thread
 from rockshape.rock.instances import Instance, Instances, Window
+from rockshape.rock.point_fit import PointCounts
 from rockshape.rock.view import RockView
 from rockshape.rock.visibility import visible_fraction
 from rockshape.segmentation.finders import Finder, find_finder
@@ -127,7 +128,7 @@ def _measure_rocks(scene: _Scene, method: Method, *, described: bool) -> tuple[R
                 whole[part.id],
                 part,
                 view=view,
-                fits=method.fits(view),
+                method=method,
                 readings=readings,
                 described=described,
             )
@@ -141,10 +142,11 @@ def _rock(
     part: Instance,
     *,
     view: RockView,
-    fits: Fits,
+    method: Method,
     readings: dict[str, Reading],
     described: bool,
 ) -> Rock:
+    fits = method.fits(view)
     rows, cols = part.window
     outline_px = (view.edge_px if fits.outline_px is None else fits.outline_px).view()
     outline_px.setflags(write=False)
@@ -161,11 +163,19 @@ def _rock(
             whole, fits.ellipse, scene.instances, scene.observation.points_m
         ),
         outline_px=outline_px,
+        points=_counts(view, constrained=any(one.constrained for one in method.measures)),
         ellipse=fits.ellipse,
         ellipsoid=fits.ellipsoid,
         readings=readings,
         descriptors=_describe(view) if described else None,
     )
+
+
+def _counts(view: RockView, *, constrained: bool) -> PointCounts:
+    """Range points used; only the constrained ellipsoid's measures leave any out."""
+    if constrained and len(view.points_m):
+        return view.point_fit.counts(view.mask)
+    return PointCounts(len(view.points_m))
 
 
 def _describe(view: RockView) -> Descriptors:

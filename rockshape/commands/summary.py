@@ -32,6 +32,12 @@ def summarise(measurement: Measurement) -> str:
         why = ", ".join(f"{reason} {count}" for reason, count in observation.left_out.items())
         total = sum(observation.left_out.values())
         parts.append(f"range of {total} of {observation.image.size} pixels left out ({why})")
+    flying = sum(rock.points.flying_points for rock in measurement.rocks)
+    spikes = sum(rock.points.spike_points for rock in measurement.rocks)
+    if flying or spikes:
+        parts.append(
+            f"{flying + spikes} points of rocks left out (flying {flying}, spikes {spikes})"
+        )
     if observation.pixel_size_m is not None:
         parts.append(f"pixel size {1000 * observation.pixel_size_m:.4g} mm")
     parts += _in_pieces(measurement)

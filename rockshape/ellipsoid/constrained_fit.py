@@ -85,8 +85,8 @@ def fit_held_ellipsoid(
     if size == 0 or spread[1] <= 1e-12 * spread[2]:
         return None
     shuffle = np.random.default_rng(0)
-    rank = shuffle.random(len(points_m)) if rank is None else rank
-    chosen = np.argsort(rank)[:MAX_POINTS]
+    order = shuffle.permutation(len(points_m)) if rank is None else np.argsort(rank)
+    chosen = order[:MAX_POINTS]
     noise = np.broadcast_to(np.asarray(point_sd_m, dtype=np.float64), len(points_m))[chosen] / size
     rays = np.empty((0, 3)) if silhouette is None else silhouette
     rays = rays[shuffle.permutation(len(rays))[:MAX_RAYS]]

@@ -4,9 +4,12 @@ Meaning: a rock whose faces are flat and whose edges are sharp lies farther from
 worn one.
 
 Formula: `paper` D_S/N, the mean squared distance of the points from their ellipsoid, along the ray
-from its centre (equation 8). `robust` the RMS distance from the held ellipsoid over the geometric
-mean of its half-axes, sqrt(D_S/N - noise²)/(abc)^(1/3), where noise is what the range's own scatter
-makes of that distance.
+from its centre (equation 8). `robust` a robust scale of the distances e from the constrained
+ellipsoid over the geometric mean of its half-axes, sqrt(s² - noise²)/(abc)^(1/3), with the
+biweight M-scale s: mean ρ(e/(2.5 s)) = 0.3092, ρ(u) = 1 - (1 - u²)³ up to |u| = 1 and 1 beyond, the
+standard deviation of normal e; noise is what the range's own scatter makes of it. Flying pixels,
+spikes and far points are left out: those farther than six times 1.4826 median |e|, or on the far
+side.
 
 Range and unit: `paper` m², growing with the square of the size; `robust` no unit, 0 for an
 ellipsoid, about 0.06 for sharp polyhedra.
@@ -31,7 +34,7 @@ from numpy.typing import NDArray
 from rockshape.ellipsoid import MIN_POINTS, Ellipsoid, EllipsoidFit
 from rockshape.measures.measure import Measure
 from rockshape.measures.reading import Reason
-from rockshape.numerics.robust_scale import median_scale
+from rockshape.numerics.robust_scale import biweight_scale
 from rockshape.outline.resample import even_outline
 from rockshape.rock.view import RockView
 
@@ -55,13 +58,13 @@ def ellipsoid_error(
 ) -> float:
     """Robust scale of points' (n, 3) radial distances from an ellipsoid over its mean half-axis.
 
-    sqrt(s² - noise²)/(abc)^(1/3) with s = 1.4826 median |e|, which is the standard deviation of
-    normal distances e. noise_m is the RMS distance that the range's own scatter makes; 0 is left
-    where it is more. NaN for no points.
+    sqrt(s² - noise²)/(abc)^(1/3) with s the biweight M-scale of the distances, the standard
+    deviation of normal ones. noise_m is the RMS distance that the range's own scatter makes; 0 is
+    left where it is more. NaN for no points.
     """
     if len(points_m) == 0:
         return float("nan")
-    square = median_scale(ellipsoid.radial_distance_m(points_m)) ** 2
+    square = biweight_scale(ellipsoid.radial_distance_m(points_m)) ** 2
     mean_axis_m = float(np.cbrt(ellipsoid.half_axes_m.prod()))
     return float(np.sqrt(max(square - noise_m**2, 0.0))) / mean_axis_m
 

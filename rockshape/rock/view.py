@@ -8,23 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.camera.camera import Camera
-from rockshape.camera.silhouette import grazing_rays
 from rockshape.ellipse.arc import fit_arc
 from rockshape.ellipse.direct import Ellipse, fit_ellipse
 from rockshape.ellipse.moments import moment_ellipse
-from rockshape.ellipsoid import (
-    Ellipsoid,
-    EllipsoidFit,
-    HeldEllipsoid,
-    Resting,
-    fit_ellipsoid,
-    fit_held_ellipsoid,
-    fit_without_outliers,
-)
+from rockshape.ellipsoid import Ellipsoid, EllipsoidFit, fit_ellipsoid
 from rockshape.outline.edge import edge_of
 from rockshape.outline.extent import MIN_WIDTH_PX, feret_diameters
 from rockshape.outline.resample import PIXEL_SIGMA, form_outline, pixel_smooth, pixel_steps
 from rockshape.outline.trace import trace_outline
+from rockshape.rock.point_fit import PointFit, fit_points
 from rockshape.rock.visibility import touches_border
 from rockshape.surface import ResidualCurvature, Surface, fit_surface, measure_relief, view_patch
 
@@ -128,7 +120,8 @@ class RockView:
         """The points measured on the rock, (k, 3) in the camera frame; none without range."""
         if self.grid_m is None:
             return np.empty((0, 3))
-        return self.grid_m[self._known]
+        points = self.grid_m[self.mask]
+        return points[np.isfinite(points).all(axis=1)]
 
     @cached_property
     def ellipse(self) -> Ellipse | None:
@@ -148,78 +141,38 @@ class RockView:
         return None if patch is None else fit_surface(patch)
 
     @cached_property
+    def point_fit(self) -> PointFit:
+        """The constrained ellipsoid, and which pixels' points are no outliers."""
+        grid_m = np.full((*self.mask.shape, 3), np.nan) if self.grid_m is None else self.grid_m
+        return fit_points(self.mask, self.corner, grid_m, camera=self.camera, ground=self.ground)
+
+    @cached_property
     def held_ellipsoid(self) -> Ellipsoid | None:
         """The ellipsoid that range, silhouette and ground hold, whichever of them are known."""
-        fit = self._held_fit[0]
-        return None if fit is None or fit.bounded or not fit.converged else fit.ellipsoid
+        return self.point_fit.ellipsoid
 
     @cached_property
     def sound_points_m(self) -> NDArray[np.float64]:
         """The points (k, 3) without outliers: flying pixels, spikes and far points."""
-        return self.points_m[self._held_fit[1]]
-
-    @cached_property
-    def _held_fit(self) -> tuple[HeldEllipsoid | None, NDArray[np.bool_]]:
-        """Fit of the constrained ellipsoid, and which points (k,) it is made on."""
-        points_m = self.points_m
-        if len(points_m) == 0:
-            return None, np.zeros(0, dtype=np.bool_)
-        plane = None if self.ground is None else self.ground.plane
-        noise_m = None if self.noise is None else self.noise.depth_sd_m(points_m[:, 2])
-
-        def fit(sound: NDArray[np.bool_]) -> HeldEllipsoid | None:
-            return fit_held_ellipsoid(
-                points_m[sound],
-                point_sd_m=0.0 if noise_m is None else noise_m[sound],
-                silhouette=self._grazing_rays(sound),
-                ground=None if plane is None else Resting(plane.normal, plane.offset_m),
-                rank=self._rank[sound],
-            )
-
-        return fit_without_outliers(points_m, fit)
-
-    def _grazing_rays(self, sound: NDArray[np.bool_]) -> NDArray[np.float64] | None:
-        """Rays that graze the rock, by its sound points (k,); None without a camera."""
-        if self.camera is None or self.grid_m is None:
-            return None
-        grid_m = self.grid_m
-        if not sound.all():
-            grid_m = grid_m.copy()
-            grid_m[self._known] = np.where(sound[:, None], self.points_m, np.nan)
-        return grazing_rays(self.mask, self.corner, self.camera, grid_m)
-
-    @cached_property
-    def _known(self) -> NDArray[np.bool_]:
-        """Pixels (rows, cols) of the rock with a point."""
-        if self.grid_m is None:
-            return np.zeros(self.mask.shape, dtype=np.bool_)
-        return np.asarray(self.mask & np.isfinite(self.grid_m).all(axis=-1))
-
-    @cached_property
-    def _rank(self) -> NDArray[np.float64]:
-        """Random rank (k,) of each point, which stays with its pixel whichever others have one."""
-        rank = np.random.default_rng(0).random(int(self.mask.sum()))
-        return np.asarray(rank[self._known[self.mask]])
+        return np.empty((0, 3)) if self.grid_m is None else self.grid_m[self.point_fit.sound]
 
     @cached_property
     def relief(self) -> ResidualCurvature | None:
         """What stands out of the held ellipsoid."""
         if self.held_ellipsoid is None:
             return None
-        sound = self._held_fit[1]
-        draws_m = self._noise_draws_m()
         return measure_relief(
             self.held_ellipsoid,
             self.sound_points_m,
-            draws_m=None if draws_m is None else draws_m[sound],
-            rank=self._rank[sound],
+            draws_m=self._noise_draws_m(),
+            rank=self.point_fit.rank[self.point_fit.sound],
         )
 
     def _noise_draws_m(self) -> NDArray[np.float64] | None:
-        """Errors of depth (k, draws) like those of the points; None for exact range."""
+        """Errors of depth (k, draws) like those of the sound points; None for exact range."""
         if self.noise is None or self.grid_m is None:
             return None
         rng = np.random.default_rng(0)
-        depth = self.grid_m[..., 2]
-        draws = [self.noise.draw_m(depth, rng=rng)[self._known] for _ in range(NOISE_DRAWS)]
+        depth, sound = self.grid_m[..., 2], self.point_fit.sound
+        draws = [self.noise.draw_m(depth, rng=rng)[sound] for _ in range(NOISE_DRAWS)]
         return np.column_stack(draws)

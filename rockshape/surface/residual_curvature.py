@@ -60,8 +60,9 @@ def measure_relief(
     if len(keep) < MIN_POINTS:
         return None
     if len(keep) > MAX_POINTS:
-        rank = np.random.default_rng(0).random(len(points_m)) if rank is None else rank
-        keep = keep[np.argsort(rank[keep])[:MAX_POINTS]]
+        shuffle = np.random.default_rng(0)
+        order = shuffle.permutation(len(keep)) if rank is None else np.argsort(rank[keep])
+        keep = keep[order[:MAX_POINTS]]
     # displaced along the ray by dz: y moves by S A p/z dz, and r by its part along y
     ray = points_m[keep] / points_m[keep][:, 2:] @ ellipsoid.axes.T / ellipsoid.half_axes_m
     slope = (sphere[keep] * ray).sum(axis=1) / radius[keep]

@@ -33,11 +33,15 @@ def test_without_range_the_line_says_what_is_missing_and_what_to_give(
 ) -> None:
     frame, parts = measured(capsys, tmp_path, GRAINS_IMAGE, "--labels", GRAINS_LABELS)
     missing = frame[FLAT].isna().any(axis=1)
-    assert frame.loc[missing, "truncated"].all()
+    cut = frame["truncated"] & missing
+    small = missing & ~frame["truncated"]  # narrow grains have no roundness
+    assert (frame.loc[small, ["width_px", "height_px"]].min(axis=1) <= 21).all()
+    assert small.any()
+    assert cut.sum() > small.sum()
     assert 0 < missing.sum() < len(frame)
     assert "; ".join(parts) == (
-        f"{len(frame)} rocks; all 2-D measures of {(~missing).sum()}, "
-        f"some missing in {missing.sum()} (truncated {missing.sum()}); {NO_RANGE}"
+        f"{len(frame)} rocks; all 2-D measures of {(~missing).sum()}, some missing in "
+        f"{missing.sum()} (truncated {cut.sum()}, too small {small.sum()}); {NO_RANGE}"
     )
 
 

@@ -1,5 +1,17 @@
 """Range formats, a file each."""
 
-from rockshape.io.range import npy, npz, ply, png, tiff
+from rockshape.io.range import imp_table, netpbm, npy, npz, pcd, pds, pfm, ply, png, tiff
 
-FORMATS = (npy.FORMAT, npz.FORMAT, tiff.FORMAT, png.FORMAT, ply.FORMAT)
+FORMATS = (
+    npy.FORMAT,
+    npz.FORMAT,
+    tiff.FORMAT,
+    png.FORMAT,
+    netpbm.FORMAT,
+    pfm.FORMAT,
+    ply.FORMAT,
+    pcd.FORMAT,
+    pds.PDS3,
+    pds.PDS4,
+    imp_table.FORMAT,
+)

@@ -82,4 +82,6 @@ def _opaque(pixels: NDArray[np.generic]) -> NDArray[Any]:
 
 
 def _scaled(pixels: NDArray[Any]) -> NDArray[np.float32]:
-    return np.asarray(pixels, dtype=np.float32) / np.float32(FULL_SCALE.get(pixels.dtype, 1))
+    intensities = pixels.astype(np.float32)
+    intensities /= np.float32(FULL_SCALE.get(pixels.dtype, 1))  # in place: pictures are large
+    return intensities

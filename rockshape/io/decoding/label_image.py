@@ -57,6 +57,8 @@ def _whole(file: "InputFile", labels: NDArray[Any]) -> NDArray[np.integer]:
             f"{file.path}: expected labels from 0 to {MAX_ID}, "
             f"found {labels.min()} to {labels.max()}"
         )
+    if labels.dtype.kind in "iu" and labels.dtype != np.uint64:
+        return labels
     small = labels.size == 0 or labels.max() < 2**31
     return labels.astype(np.int32 if small else np.int64)
 

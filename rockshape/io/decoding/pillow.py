@@ -3,6 +3,7 @@
 import io
 from collections.abc import Iterator
 from contextlib import contextmanager
+from itertools import chain
 from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from rockshape.io.format import ImageContent
 if TYPE_CHECKING:
     from rockshape.io.files import InputFile
 
+LARGE_PIXELS, STRIP_ROWS = 2**24, 512
 COLOURS = ("P", "PA", "CMYK", "YCbCr", "LAB", "HSV")
 # what Pillow multiplies grey levels of fewer than 8 bits by, to fill these
 LEVELS = {1: 255, 2: 85, 4: 17}
@@ -48,7 +50,7 @@ def read_numbers(file: "InputFile", *formats: str, bits: int = 8) -> NDArray[Any
     if mode == "1":
         numbers = numbers.astype(np.uint8)
     elif mode == "L":
-        numbers //= np.uint8(LEVELS.get(bits, 1))
+        numbers = numbers // np.uint8(LEVELS.get(bits, 1))
     return turn(_one_channel(file, numbers, opaque=mode in ("LA", "RGBA")), orientation)
 
 
@@ -69,13 +71,26 @@ def _one_channel(file: "InputFile", numbers: NDArray[Any], *, opaque: bool) -> N
 
 def native_pixels(picture: Image.Image) -> NDArray[Any]:
     """Pixels in the machine's byte order; 16 bits that Pillow holds in 32 are 16 again."""
-    if picture.mode == "1":
-        return np.asarray(picture)
-    pixels = np.array(picture)
+    pixels = _by_strips(picture)
     if picture.mode.startswith("I;16") or (
         picture.mode == "I" and pixels.size and 0 <= pixels.min() <= pixels.max() <= 65535
     ):
         return pixels.astype(np.uint16)
+    return pixels
+
+
+def _by_strips(picture: Image.Image) -> NDArray[Any]:
+    """Pixels of a picture; Pillow's own conversion holds a large one three times at once."""
+    width, height = picture.size
+    if width * height < LARGE_PIXELS:
+        return np.asarray(picture)
+    tops = range(0, height, STRIP_ROWS)
+    boxes = ((0, top, width, min(top + STRIP_ROWS, height)) for top in tops)
+    strips = (np.asarray(picture.crop(box)) for box in boxes)
+    first = next(strips)
+    pixels = np.empty((height, *first.shape[1:]), first.dtype)
+    for top, strip in zip(tops, chain([first], strips), strict=True):
+        pixels[top : top + len(strip)] = strip
     return pixels
 
 

@@ -32,6 +32,8 @@ def read_picture(path: Path | str, *, max_pixels: int = MAX_PIXELS) -> ImageCont
     with IMAGES.open(path, max_pixels=max_pixels) as (file, chosen):
         content = chosen.read(file)
         picture = content if isinstance(content, ImageContent) else ImageContent(content)
+        if picture.pixels.ndim not in (2, 3) or not picture.pixels.size:
+            raise file.refusal(f"pixels of the shape {picture.pixels.shape}")
         return replace(picture, pixels=np.ascontiguousarray(to_levels(picture.pixels)))
 
 

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 Mask = NDArray[np.bool_]
 
 FAR_VALUE = 1e6  # of z-depth, in any unit: renderers and sensors write 1e10 and the like for none
+NEAR_VALUE = 1e-9  # likewise: none but for rounding
 FAR_COORDINATE = 1e8  # of points, which may be given in a map's frame
 SATURATED = 2**16 - 1  # steps, of a sensor of 16 bits, also after a conversion to another type
 NO_DATA = (-32767.0, -32768.0, -9999.0, -99999.0, 32767.0, 65535.0, 99999.0)  # of coordinates
@@ -31,7 +32,7 @@ def missing_in_raster(
         reasons["infinite"] = np.isinf(values)
         reasons["saturated"] = _among(values, [SATURATED / 10.0**power for power in range(5)])
         reasons["no-data value"] |= np.isfinite(values) & (np.abs(values) >= FAR_VALUE)
-    reasons["zero"] = values == 0
+    reasons["zero"] = (values > -NEAR_VALUE) & (values < NEAR_VALUE)  # type: ignore[operator]
     reasons["negative"] = values < 0  # type: ignore[operator]
     return _first_reasons(reasons)
 

@@ -9,7 +9,8 @@ from hypothesis import given, settings
 
 import rockshape
 from rockshape.cli import main
-from rockshape.io import read_range
+from rockshape.errors import InputError
+from rockshape.io import read_image, read_range
 from tests.hostile import fuzz, kill, soak
 from tests.hostile import seeds as seeds_module
 from tests.hostile.cases import SHARES, SIZE, cases
@@ -116,3 +117,36 @@ def test_a_lone_surrogate_in_a_manifest_is_refused(tmp_path, capsys) -> None:
     )
     assert main(["synth", "scene", "--replay", str(manifest), str(tmp_path / "out")]) == 2
     assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_a_picture_without_pixels_is_refused(tmp_path, monkeypatch) -> None:
+    from rockshape.io import registry
+    from rockshape.io.format import ImageFormat
+
+    empty = ImageFormat(
+        name="empty", suffixes=(".empty",), summary="none", read=lambda _: np.zeros(0, np.uint8)
+    )
+    monkeypatch.setitem(registry.IMAGES.registered, "empty", empty)
+    (tmp_path / "a.empty").write_bytes(b"x")
+    with pytest.raises(InputError, match=r"found pixels of the shape \(0,\)"):
+        read_image(tmp_path / "a.empty")
+
+
+@pytest.mark.parametrize("near_m", [8e-320, 1e-60, 1e-10])
+def test_a_z_depth_of_nothing_is_none(near_m, tmp_path) -> None:
+    depth_m = seeds_module.depth_m()
+    depth_m[20:35, 30:60] = near_m
+    np.save(tmp_path / "depth.npy", depth_m)
+    camera = rockshape.Camera(**seeds_module.CAMERA)
+    found = read_range(tmp_path / "depth.npy", shape=seeds_module.SHAPE, camera=camera)
+    assert np.isnan(found[20:35, 30:60]).all()
+    assert np.count_nonzero(np.isnan(found[..., 2])) == 15 * 30
+    rockshape.measure(
+        seeds_module.image(), range_m=found, camera=camera, labels=seeds_module.labels()
+    )
+
+
+def test_an_output_folder_whose_name_is_no_utf_8_is_refused(tmp_path, monkeypatch, capsys) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["validate", "run", "--out", "\udcff"]) == 2
+    assert "UTF-8" in capsys.readouterr().err

@@ -40,6 +40,10 @@ def check_target(out: Path) -> None:
     Raises:
         InputError: a file, a folder with other things in it, or a place that cannot be written.
     """
+    try:
+        str(out).encode()
+    except UnicodeEncodeError as error:
+        raise InputError(f"--out: expected a name in UTF-8, found {str(out)!r}") from error
     if out.is_symlink() and not out.exists():
         raise InputError(f"--out: expected a folder, found a link to nowhere: {out}")
     if out.exists() and not out.is_dir():

@@ -44,4 +44,9 @@ def _rows(kind: str) -> Iterator[tuple[str, ...]]:
 
     for each in known_formats():
         if each.kind == kind:
-            yield each.name, " ".join(each.suffixes), each.access, each.summary.replace("`", "")
+            yield (
+                each.name,
+                " ".join(each.suffixes) or "folder",
+                each.access,
+                each.summary.replace("`", ""),
+            )

@@ -8,7 +8,7 @@ import errno
 import fcntl
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from synth.errors import SpecError
@@ -20,13 +20,19 @@ _NO_LOCKS = (errno.ENOLCK, errno.ENOTSUP, errno.EBADF, errno.EINVAL)  # of some 
 def folder_lock(folder: Path) -> Iterator[None]:
     """Hold the lock of a folder, which is made if it is not there.
 
+    A folder that was made and that nothing was written to is removed again.
+
     Raises:
         SpecError: another run holds it, or the folder cannot be made.
     """
+    made = not folder.exists()
     descriptor = _locked(folder)
     try:
         yield
     finally:
+        if made:
+            with suppress(OSError):  # not empty, or removed by the run itself
+                folder.rmdir()
         os.close(descriptor)
 
 

@@ -60,7 +60,9 @@ def test_formats_lists_every_format_under_its_kind(capsys: pytest.CaptureFixture
         assert [row[2:].partition("  ")[0] for row in rows] == names
         # aligned: the suffixes begin in the heading's column
         column = heading.index("suffixes")
-        assert all(row[column] == "." and row[column - 1] == " " for row in rows)
+        first = [row[column:].partition(" ")[0] for row in rows]
+        assert all(word[:1] == "." or word == "folder" for word in first)
+        assert all(row[column - 1] == " " for row in rows)
 
 
 def test_formats_of_one_kind(capsys: pytest.CaptureFixture[str]) -> None:

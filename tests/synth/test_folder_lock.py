@@ -97,3 +97,11 @@ def test_a_drawing_that_was_broken_off_is_written_anew(tmp_path) -> None:
     (tmp_path / "image.png").write_bytes(b"mine")
     with pytest.raises(SpecError, match="found other files"):
         write_series("roundness", tmp_path)
+
+
+def test_a_folder_is_removed_again_where_nothing_was_written(tmp_path) -> None:
+    there, made, used = tmp_path / "there", tmp_path / "made", tmp_path / "used"
+    there.mkdir()
+    with folder_lock(there), folder_lock(made), folder_lock(used):
+        (used / "file").touch()
+    assert sorted(tmp_path.iterdir()) == [there, used]

@@ -34,7 +34,7 @@ SURE_RESIDUAL_PX = 0.5  # a camera at the origin that explains the grid this wel
 WORST_RESIDUAL_PX = 3.0  # a grid that no camera explains better than this is not one camera's
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Observation:
     """One image, its range, and what is known of its camera and its rocks.
 
@@ -74,6 +74,13 @@ class Observation:
             raise InputError(
                 f"labels: expected {shape} as the image has, found {self.instances.shape}"
             )
+
+    def __repr__(self) -> str:
+        """Size, and what is known beside the image."""
+        rows, cols = self.image.shape
+        beside = ("points_m", "camera", "colour", "instances")
+        known = [name for name in beside if getattr(self, name) is not None]
+        return f"Observation({', '.join([f'image {rows} x {cols}', *known])})"
 
 
 def locate_camera(observation: Observation) -> Observation:

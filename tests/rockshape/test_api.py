@@ -222,3 +222,8 @@ def test_a_range_unit_says_what_the_numbers_are_and_that_they_are_meant() -> Non
         rockshape.measure(range_m=1000 * depth, camera=camera, labels=labels)
     far = rockshape.measure(range_m=1000 * depth, range_unit="m", camera=camera, labels=labels)
     assert np.nanmedian(far.observation.points_m[..., 2]) == pytest.approx(1700, rel=0.01)
+
+
+def test_the_repr_of_an_observation_tells_what_is_known_and_no_pixels() -> None:
+    seen = rockshape.measure(np.zeros((40, 50)), labels=np.ones((40, 50), np.int32)).observation
+    assert repr(seen) == "Observation(image 40 x 50, instances)"

@@ -49,8 +49,10 @@ def points_from(
         raise InputError(f"expected numbers, found {values.dtype}")
     if camera is not None and camera.shape != values.shape[:2]:
         raise InputError(f"camera: expected {values.shape[:2]} as range has, found {camera.shape}")
-    if values.dtype == np.float16:
-        values = values.astype(np.float32)
+    if values.dtype.kind == "f":
+        with np.errstate(invalid="ignore"):  # of signalling NaN, which damaged files hold
+            precise = values.astype(np.float32 if values.dtype == np.float16 else values.dtype)
+            values = np.where(np.isnan(precise), precise.dtype.type(np.nan), precise)
     find_missing = missing_in_points if kind == "xyz" else missing_in_raster
     missing = find_missing(values, no_data=no_data)
     known = values.astype(np.float64)

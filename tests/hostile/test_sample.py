@@ -150,3 +150,19 @@ def test_an_output_folder_whose_name_is_no_utf_8_is_refused(tmp_path, monkeypatc
     monkeypatch.chdir(tmp_path)
     assert main(["validate", "run", "--out", "\udcff"]) == 2
     assert "UTF-8" in capsys.readouterr().err
+
+
+def test_signalling_nan_says_nothing(tmp_path) -> None:
+    steps = seeds_module.points_m().astype("<f4")
+    steps.view("<u4")[3, 4] = 0x7F800001  # IEEE 754: quiet bit clear
+    np.save(tmp_path / "xyz.npy", steps)
+    camera = rockshape.Camera(**seeds_module.CAMERA)
+    found = read_range(tmp_path / "xyz.npy", shape=seeds_module.SHAPE, camera=camera)
+    assert np.argwhere(np.isnan(found[..., 0])).tolist() == [[3, 4]]
+
+
+def test_an_output_folder_may_be_named_as_a_uri_is(tmp_path, monkeypatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    kill.inputs(tmp_path)
+    assert main(["validate", "run", "--suite", "suite.toml", "--jobs", "1", "--out", "a:b"]) == 0
+    assert main(["validate", "compare", "a:b", "a:b"]) == 0

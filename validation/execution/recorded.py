@@ -86,7 +86,7 @@ def _document(folder: Path) -> Any:
 
 
 def _records(folder: Path) -> pd.DataFrame:
-    file = folder / "results.parquet"
+    file = (folder / "results.parquet").absolute()  # pyarrow takes a relative `a:b` for a URI
     try:
         head = pq.read_metadata(file)
         cells = head.num_rows * head.num_columns

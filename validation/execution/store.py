@@ -146,7 +146,7 @@ class UnitStore:
         if not is_store_or_empty(folder):
             raise InputError(f"{folder}: expected unit results of a run, found other files")
         folder.mkdir(parents=True, exist_ok=True)
-        self._folder = folder
+        self._folder = folder.absolute()  # pyarrow takes a relative `a:b` for a URI
         if not is_store(folder):
             self._write(folder / _MARK, json.dumps({"format": FORMAT}).encode() + b"\n")
         for pattern in ("*.partial", "*/*.partial", *(() if keep else ("*/*.parquet",))):

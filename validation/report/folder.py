@@ -84,7 +84,7 @@ def write_run(run: Run, out: Path, *, command: str, seconds: float) -> None:
         shutil.rmtree(stale, ignore_errors=True)
     place = TemporaryDirectory(prefix=_DRAFT, dir=out) if out.is_dir() else _beside(out)
     with place as staging:
-        whole = Path(staging) / "run"
+        whole = Path(staging).absolute() / "run"  # pyarrow takes a relative `a:b` for a URI
         whole.mkdir()
         run.records.to_parquet(whole / "results.parquet", index=False)
         (whole / SCORES).write_text(scores_json(run), encoding="utf-8")

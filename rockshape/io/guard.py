@@ -19,6 +19,7 @@ LIBRARIES = (
     "matplotlib",
 )  # their loggers
 SILENT = logging.CRITICAL + 1
+OPENCV_SILENT = 0
 
 
 @contextmanager
@@ -48,9 +49,9 @@ def quiet() -> Iterator[None]:
             logger.setLevel(SILENT)
         opencv = sys.modules.get("cv2")
         if opencv is not None:
-            level = opencv.utils.logging
-            restored.callback(level.setLogLevel, level.getLogLevel())
-            level.setLogLevel(level.LOG_LEVEL_SILENT)
+            log = getattr(opencv.utils, "logging", opencv)  # OpenCV 5, OpenCV 4
+            restored.callback(log.setLogLevel, log.getLogLevel())
+            log.setLogLevel(OPENCV_SILENT)
         yield
 
 

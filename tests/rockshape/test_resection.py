@@ -47,7 +47,7 @@ def test_locating_the_camera_moves_such_a_grid_to_it() -> None:
 
 def test_a_grid_in_its_cameras_frame_is_left_alone() -> None:
     # the principal point lies far from the middle, which a resection would take for a turn
-    camera = Camera(fx=400, fy=410, cx=120, cy=100, width=320, height=240)
+    camera = Camera(fx=400, fy=400, cx=120, cy=100, width=320, height=240)
     plane = solids.plane_range(camera, normal=np.array([0, -0.8, -0.6]), offset_m=-1.5)
     points = solids.nearest(
         plane,
@@ -64,6 +64,14 @@ def test_a_grid_in_its_cameras_frame_is_left_alone() -> None:
     assert observation.camera is not None
     assert observation.camera.cx == pytest.approx(camera.cx)
     assert observation.camera.fy == pytest.approx(camera.fy)
+
+
+def test_a_grid_of_pixels_that_are_not_square_is_refused() -> None:
+    camera = Camera(fx=400, fy=410, cx=120, cy=100, width=320, height=240)
+    points = solids.plane_range(camera, normal=np.array([0, -0.8, -0.6]), offset_m=-1.5)
+    image = np.zeros(camera.shape, dtype=np.float32)
+    with pytest.raises(InputError, match=r"expected square pixels.*found 400 and 410"):
+        locate_camera(Observation(image=image, points_m=points))
 
 
 def test_the_lander_camera_of_the_mars_frame_is_found() -> None:

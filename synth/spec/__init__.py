@@ -3,11 +3,9 @@
 from pathlib import Path
 from typing import Annotated, Literal
 
-import msgspec
 from msgspec import UNSET, Meta, Struct, UnsetType
 
-from synth.errors import SpecError
-from synth.spec.complaint import complaint
+from synth.spec.convert import convert_table
 from synth.spec.dataset import DatasetSpec
 from synth.spec.ground import GroundSpec
 from synth.spec.population import PopulationSpec
@@ -67,9 +65,4 @@ def convert_spec(table: object, *, where: str) -> SceneSpec:
     Raises:
         SpecError: a key or value that is not allowed; the message names it.
     """
-    try:
-        return msgspec.convert(table, SceneSpec)
-    except UnicodeEncodeError as error:  # of lone surrogates, which JSON can hold
-        raise SpecError(f"{where}: expected text, found {error}") from error
-    except msgspec.ValidationError as error:
-        raise SpecError(f"{where}: {complaint(table, SceneSpec)}") from error
+    return convert_table(table, SceneSpec, where=where)

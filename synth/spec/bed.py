@@ -3,11 +3,9 @@
 from pathlib import Path
 from typing import Annotated, Literal
 
-import msgspec
 from msgspec import Meta, Struct
 
-from synth.errors import SpecError
-from synth.spec.complaint import complaint
+from synth.spec.convert import convert_table
 from synth.spec.limits import Fraction, check_range
 from synth.spec.toml import read_toml
 
@@ -186,7 +184,4 @@ def convert_bed_spec(table: object, *, where: str) -> BedSpec:
     Raises:
         SpecError: a key or value that is not allowed; the message names it.
     """
-    try:
-        return msgspec.convert(table, BedSpec)
-    except msgspec.ValidationError as error:
-        raise SpecError(f"{where}: {complaint(table, BedSpec)}") from error
+    return convert_table(table, BedSpec, where=where)

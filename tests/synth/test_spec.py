@@ -8,6 +8,7 @@ from msgspec import Meta, Struct, field
 
 from synth.errors import SpecError
 from synth.spec import SceneSpec, convert_spec, load_spec
+from synth.spec.bed import convert_bed_spec
 from synth.spec.complaint import complaint
 
 
@@ -158,3 +159,9 @@ def test_complaints_about_lists_of_tagged_tables(table, words):
     with pytest.raises(msgspec.ValidationError):
         msgspec.convert(table, Page)
     assert complaint(table, Page) == words
+
+
+@pytest.mark.parametrize("convert", [convert_spec, convert_bed_spec])
+def test_lone_surrogates_of_a_manifest_are_refused(convert):
+    with pytest.raises(SpecError, match=r"manifest: expected text, found .*surrogates not allowed"):
+        convert({"seed": "\ud800"}, where="manifest")

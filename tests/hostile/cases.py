@@ -9,12 +9,21 @@ from typing import NamedTuple
 import msgspec
 import numpy as np
 
+from rockshape.point_grid.points import KINDS
 from synth.spec import SceneSpec
 from tests.hostile import mutations
-from tests.hostile.seeds import Seed, readable_formats, seeds_of
+from tests.hostile.seeds import readable_formats, seeds, seeds_of
 
 SIZE = 1600
-SHARES = {"file": 0.5, "content": 0.12, "option": 0.12, "suite": 0.1, "spec": 0.1, "run": 0.06}
+SHARES = {
+    "file": 0.46,
+    "folder": 0.04,
+    "content": 0.12,
+    "option": 0.12,
+    "suite": 0.1,
+    "spec": 0.1,
+    "run": 0.06,
+}
 SUITE = b"""name = "one"
 title = "One"
 [[experiment]]
@@ -65,8 +74,8 @@ class Case(NamedTuple):
 
 def cases(seed: int = 0, count: int = SIZE) -> Iterator[Case]:
     """So many cases, each kind's share of them."""
-    makers = {"file": _files, "content": _contents, "option": _options, "suite": _suites,
-              "spec": _specs, "run": _runs}  # fmt: skip
+    makers = {"file": _files, "folder": _folders, "content": _contents, "option": _options,
+              "suite": _suites, "spec": _specs, "run": _runs}  # fmt: skip
     for index, (kind, share) in enumerate(SHARES.items()):
         rng = np.random.default_rng([seed, index])
         yield from islice(makers[kind](rng), round(share * count))
@@ -88,9 +97,22 @@ def _files(rng: np.random.Generator) -> Iterator[Case]:
     for one in cycle(readable_formats()):
         seeds = seeds_of(one)
         seed = seeds[int(rng.integers(len(seeds)))]
-        as_json = seed.data.startswith(b"{") and rng.random() < 0.5
+        as_json = seed.data.startswith((b"{", b"[")) and rng.random() < 0.5
         damage = mutations.retyped_json if as_json else mutations.damaged
-        yield _measured(one.kind, seed.suffix, damage(seed.data, rng), f"{one.name} damaged")
+        case = _measured(one.kind, seed.suffix, damage(seed.data, rng), f"{one.name} damaged")
+        if one.kind == "range" and rng.random() < 0.4:
+            case = case._replace(argv=(*case.argv, "--range-kind", str(rng.choice(KINDS))))
+        yield case
+
+
+def _folders(rng: np.random.Generator) -> Iterator[Case]:
+    """Folders of masks with one that is damaged or of another kind."""
+    files = [seed for seed in seeds() if seed.kind != "camera"]
+    while True:
+        seed = files[int(rng.integers(len(files)))]
+        name = f"masks/{rng.choice(['rock_3', 'rock_02', 'rock', '9' * 30])}{seed.suffix}"
+        argv = (*MEASURE, "--instances", "{masks}")
+        yield Case("measure", "folder", argv, {name: mutations.damaged(seed.data, rng)}, name)
 
 
 def _contents(rng: np.random.Generator) -> Iterator[Case]:
@@ -231,18 +253,15 @@ def damaged_run(name: str, data: bytes, mark: bytes) -> bytes:
 
 def usual_files() -> dict[str, bytes]:
     """Files that every case finds."""
-    formats = {(one.kind, suffix): one for one in readable_formats() for suffix in one.suffixes}
 
-    def first(kind: str, suffix: str) -> Seed:
-        own = seeds_of(formats[kind, suffix])
-        return next(seed for seed in own if seed.suffix == suffix)
+    def first(kind: str, suffix: str) -> bytes:
+        return next(each.data for each in seeds() if (each.kind, each.suffix) == (kind, suffix))
 
-    outputs = dict.fromkeys(OUTPUTS, b"old")
-    return outputs | {
-        "scene.png": first("image", ".png").data,
-        "labels.png": first("labels", ".png").data,
-        "range.npy": first("range", ".npy").data,
-        "camera.json": first("camera", ".json").data,
+    return dict.fromkeys(OUTPUTS, b"old") | {
+        "scene.png": first("image", ".png"),
+        "labels.png": first("labels", ".png"),
+        "range.npy": first("range", ".npy"),
+        "camera.json": first("camera", ".json"),
         "suite.toml": SUITE,
         "blocked": b"a file where a folder is expected",
     }

@@ -6,6 +6,7 @@ to reports/fuzz, from where it becomes a test.
 """
 
 import argparse
+import faulthandler
 import functools
 import signal
 import sys
@@ -20,122 +21,88 @@ from pathlib import Path
 import numpy as np
 from hypothesis import HealthCheck, Phase, given, seed, settings
 from hypothesis import strategies as st
-from hypothesis.extra import numpy as arrays
 
 import rockshape
+from rockshape.camera.lens import DisparityScale, Lens
 from rockshape.errors import InputError
-from rockshape.io import read_camera, read_image, read_labels, read_range
-from tests.hostile.judge import LIMIT_S, MAX_GROWTH_BYTES, peak_bytes
-from tests.hostile.mutations import LENGTHS, MUTATIONS, retyped_json
-from tests.hostile.seeds import CAMERA, SHAPE, readable_formats, seeds_of
+from rockshape.io import read_image, read_labels, read_lens, read_points
+from rockshape.point_grid.points import RangeKind
+from tests.hostile.judge import GRACE_S, LIMIT_S, MAX_GROWTH_BYTES, Stopwatch, peak_bytes
+from tests.hostile.scene import CAMERA, SHAPE
+from tests.hostile.seed_files import ranges
+from tests.hostile.seeds import Seed
+from tests.hostile.strategies import RANGE_KINDS, damaged_files, damaged_masks, observations
 
 MAX_FINDS = 50
-COUNTS: Counter[str] = Counter()
+TICK_S = 1.0  # between alarms after the first
+EXAMPLES = {"readers": 450, "folders": 100, "measure": 300}  # a round
+COUNTS: Counter[tuple[str, str]] = Counter()  # by what was tried and its outcome
 
 
 @contextmanager
-def limited() -> Iterator[None]:
-    """Fail where what is done takes longer or more memory than may be; InputError is allowed."""
+def limited(what: str) -> Iterator[None]:
+    """Fail where what is done takes longer or more memory than may be; InputError is allowed.
 
-    def late(*_: object) -> None:
-        raise AssertionError(f"expected an end within {LIMIT_S} s, found none")
+    The alarm ends a loop, again and again where what it raises is swallowed; the stopwatch tells
+    afterwards. What no alarm ends, a loop in C, ends the process with its stack.
+    """
+    before, watch = peak_bytes(reset=True), Stopwatch()
 
-    before = peak_bytes(reset=True)
-    signal.signal(signal.SIGALRM, late)
-    signal.setitimer(signal.ITIMER_REAL, LIMIT_S)
+    def tick(*_: object) -> None:
+        if watch.seconds() > LIMIT_S:
+            raise TimeoutError(f"no end within {LIMIT_S} s")
+
+    signal.signal(signal.SIGALRM, tick)
+    signal.setitimer(signal.ITIMER_REAL, LIMIT_S, TICK_S)
+    faulthandler.dump_traceback_later(2 * GRACE_S, exit=True)
     try:
         yield
-        COUNTS["taken"] += 1
+        COUNTS[what, "taken"] += 1
     except InputError as error:
-        COUNTS["refused"] += 1
+        COUNTS[what, "refused"] += 1
         assert str(error).strip()
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
-    assert peak_bytes() - before < MAX_GROWTH_BYTES
+        faulthandler.cancel_dump_traceback_later()
+        seconds, growth = watch.seconds(), peak_bytes() - before
+        COUNTS[what, "late"] += seconds > LIMIT_S
+    assert seconds <= LIMIT_S, f"expected an end within {LIMIT_S} s, found {seconds:.1f} s"
+    assert growth < MAX_GROWTH_BYTES, f"expected less than 1 GB more, found {growth / 1e9:.1f}"
 
 
-@st.composite
-def damaged_files(draw: st.DrawFn) -> tuple[str, str, bytes]:
-    """Kind, suffix and content of a damaged file of any readable format."""
-    one = draw(st.sampled_from(readable_formats()))
-    seed_file = draw(st.sampled_from(seeds_of(one)))
-    data = seed_file.data
-    if draw(st.booleans()) and data.startswith(b"{"):
-        data = retyped_json(data, np.random.default_rng(draw(st.integers(0, 2**32))))
-    for _ in range(draw(st.integers(0, 3))):
-        way = draw(st.sampled_from(("any", "bytes", "length", "cut")))
-        at = draw(st.integers(0, max(0, len(data) - 1)))
-        if way == "any":
-            mutation = draw(st.sampled_from(MUTATIONS))
-            data = mutation(data, np.random.default_rng(draw(st.integers(0, 2**32))))
-        elif way == "bytes":
-            patch = draw(st.binary(min_size=1, max_size=8))
-            data = data[:at] + patch + data[at + len(patch) :]
-        elif way == "length":
-            order = draw(st.sampled_from(("little", "big")))
-            field = draw(st.sampled_from(LENGTHS)).to_bytes(4, order)
-            data = data[:at] + field + data[at + 4 :]
-        else:
-            data = data[:at]
-    return one.kind, draw(st.sampled_from(one.suffixes)), data
+LENS = Lens(
+    rockshape.Camera(**CAMERA, depth_scale=1.0),
+    disparity=DisparityScale(ranges.BASELINE_M, step_px=ranges.DISPARITY_STEP_PX),
+)
+READERS = {
+    "image": read_image,
+    "labels": functools.partial(read_labels, shape=SHAPE, image_name="scene.png"),
+    "range": functools.partial(read_points, shape=SHAPE, camera=LENS),
+    "camera": functools.partial(read_lens, shape=SHAPE, image_name="scene.png"),
+}
 
 
-def read_file(kind: str, path: Path) -> None:
-    """Read a file as what it is for."""
-    camera = rockshape.Camera(**CAMERA, depth_scale=1.0)
-    if kind == "image":
-        read_image(path)
-    elif kind == "labels":
-        read_labels(path, shape=SHAPE)
-    elif kind == "range":
-        read_range(path, shape=SHAPE, camera=camera)
-    else:
-        read_camera(path, shape=SHAPE)
-
-
-def readers(file: tuple[str, str, bytes]) -> None:
-    """A damaged file is read or refused."""
-    kind, suffix, data = file
+def readers(file: Seed, kind: RangeKind | None) -> None:
+    """A damaged file is read or refused; kind is of range, where it is that."""
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / f"hostile{suffix}"
-        path.write_bytes(data)
-        with limited():
-            read_file(kind, path)
+        path = Path(folder) / f"hostile{file.suffix}"
+        path.write_bytes(file.data)
+        with limited(file.kind):
+            READERS[file.kind](path, **({"kind": kind} if file.kind == "range" else {}))
 
 
-_ODD = st.sampled_from((0.0, -0.0, 1.0, 0.5, -1.0, np.nan, np.inf, -np.inf, 1e-38, 3e38, 1e-6))
-_SIDES = st.tuples(st.integers(0, 24), st.integers(0, 24))
-
-
-@st.composite
-def observations(draw: st.DrawFn) -> dict[str, object]:
-    """Arguments of `rockshape.measure`: pictures, labels, range and cameras of any values."""
-    shape = draw(_SIDES)
-    kind = draw(st.sampled_from(("u1", "u2", "f4", "f8", "i4", "?")))
-    given_image = draw(
-        arrays.arrays(kind, draw(st.sampled_from((shape, (*shape, 3), (*shape, 4)))))
-        if kind not in ("f4", "f8")
-        else arrays.arrays(kind, shape, elements=_ODD.map(np.dtype(kind).type))
-    )
-    found: dict[str, object] = {"image": given_image}
-    if draw(st.booleans()):
-        own = draw(arrays.arrays("i4", shape, elements=st.integers(-1, 3), fill=st.just(0)))
-        found["labels"] = own
-    if draw(st.booleans()):
-        places = draw(st.sampled_from((shape, (*shape, 3))))
-        base = np.full(places, draw(st.sampled_from((0.5, 2.0, 1e3))))
-        spoilt = draw(arrays.arrays("f8", places, elements=_ODD, fill=st.just(0.0)))
-        found["range_m"] = np.where(spoilt == 0, base, spoilt)
-    if draw(st.booleans()):
-        size = {"width": shape[1], "height": shape[0]}
-        focal = draw(st.sampled_from((1e-9, 1.0, 80.0, 1e9)))
-        found["camera"] = {"fx": focal, "fy": focal, "cx": 1.0, "cy": 1.0, **size}
-    return found
+def folders(files: dict[str, bytes]) -> None:
+    """A folder of masks with a damaged one is read or refused."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, data in files.items():
+            (Path(folder) / name).write_bytes(data)
+        with limited("folder"):
+            READERS["labels"](folder)
 
 
 def measuring(arguments: dict[str, object], method: str, descriptors: bool) -> None:
     """Any arrays are measured, without an unexplained number, or refused."""
-    with limited():
+    with limited("measure"):
         camera = arguments.pop("camera", None)
         if camera is not None:
             arguments["camera"] = rockshape.Camera(**camera)
@@ -146,7 +113,8 @@ def measuring(arguments: dict[str, object], method: str, descriptors: bool) -> N
 
 
 FUZZERS = {
-    "readers": (readers, (damaged_files(),)),
+    "readers": (readers, (damaged_files(), RANGE_KINDS)),
+    "folders": (folders, (damaged_masks(),)),
     "measure": (measuring, (observations(), st.sampled_from(("paper", "robust")), st.booleans())),
 }
 
@@ -161,6 +129,19 @@ def fresh(function: Callable[..., None]) -> Callable[..., None]:
     return fresh
 
 
+def _total(outcome: str) -> int:
+    return sum(number for (_, found), number in COUNTS.items() if found == outcome)
+
+
+def told() -> str:
+    """Number of inputs by what was tried and outcome."""
+    kinds = sorted({what for what, _ in COUNTS})
+    numbers = (
+        f"{what} {COUNTS[what, 'taken']} taken {COUNTS[what, 'refused']} refused" for what in kinds
+    )
+    return f"{', '.join(numbers)}, {_total('late')} late"
+
+
 def run(minutes: float, out: Path) -> int:
     """Fuzz for so long; the number of finds."""
     ends, finds, round_number = time.monotonic() + 60 * minutes, 0, 0
@@ -171,7 +152,7 @@ def run(minutes: float, out: Path) -> int:
         for name, (function, drawn) in FUZZERS.items():
             round_number += 1
             options = settings(
-                max_examples=300,
+                max_examples=EXAMPLES[name],
                 deadline=None,
                 derandomize=False,
                 database=None,
@@ -179,17 +160,19 @@ def run(minutes: float, out: Path) -> int:
                 suppress_health_check=list(HealthCheck),
                 phases=(Phase.generate, Phase.shrink),
             )
+            late = _total("late")
             try:
                 seed(first + round_number)(options(given(*drawn)(fresh(function))))()
+                text = f"{name}: late without a word" if _total("late") > late else ""
             except Exception as error:
-                finds += 1
                 notes = "\n".join(getattr(error, "__notes__", ()))
                 text = f"{name}: {type(error).__name__}: {error}\n{notes}\n"
+            if text:
+                finds += 1
                 print(text[:2000], flush=True)
                 (out / f"{name}-{first}-{round_number}.txt").write_text(text, encoding="utf-8")
-        told = ", ".join(f"{number} {what}" for what, number in sorted(COUNTS.items()))
         print(
-            f"{time.strftime('%H:%M:%S')} round {round_number}: {told}, {finds} finds", flush=True
+            f"{time.strftime('%H:%M:%S')} round {round_number}: {told()}, {finds} finds", flush=True
         )
     return finds
 

@@ -12,8 +12,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 from tests.hostile.cases import OUTPUTS, Case, damaged_run, usual_files
+from tests.hostile.seed_files import labels as label_files
 
 LIMIT_S = 10.0
+GRACE_S = 3 * LIMIT_S  # on a loaded machine
 MAX_GROWTH_BYTES = 2**30
 MAX_LINE = 500
 ADDRESS_SPACE_BYTES = 12 * 2**30
@@ -29,14 +31,31 @@ class Verdict(NamedTuple):
     said: str
 
 
+class Stopwatch:
+    """Time that counts: the processor's, since other processes take their share of the machine.
+
+    Beyond the grace it is the wall clock's, for what waits for ever takes no processor.
+    """
+
+    def __init__(self) -> None:
+        self._wall, self._processor = time.monotonic(), time.process_time()
+
+    def seconds(self) -> float:
+        """Seconds since the start."""
+        wall = time.monotonic() - self._wall
+        return wall if wall > GRACE_S else time.process_time() - self._processor
+
+
 class Bench:
     """Folder of the usual files in which cases are run, one after another."""
 
     def __init__(self, run: Path | None = None) -> None:
         """Make the folder; `run` is a validation run that comparisons begin with."""
         self.folder = Path(tempfile.mkdtemp(prefix="hostile-"))
-        self._usual = usual_files()
+        masks = {f"masks/{name}": data for name, data in label_files.masks().items()}
+        self._usual = usual_files() | masks
         (self.folder / "folder").mkdir()
+        (self.folder / "masks").mkdir()
         for name, data in self._usual.items():
             (self.folder / name).write_bytes(data)
         if run is not None:
@@ -55,9 +74,9 @@ class Bench:
         argv = [
             re.sub(r"\{([^{}]+)\}", lambda m: str(self.folder / m[1]), word) for word in case.argv
         ]
-        before, start = peak_bytes(reset=True), time.monotonic()
+        before, watch = peak_bytes(reset=True), Stopwatch()
         status, out, err = _captured(argv)
-        seconds, growth = time.monotonic() - start, peak_bytes() - before
+        seconds, growth = watch.seconds(), peak_bytes() - before
         changed = [
             name for name, data in self._usual.items() if _content(self.folder / name) != data
         ]

@@ -6,9 +6,9 @@ from multiprocessing.connection import Connection, wait
 from pathlib import Path
 
 from tests.hostile.cases import Case
-from tests.hostile.judge import ADDRESS_SPACE_BYTES, LIMIT_S, Bench, Verdict
+from tests.hostile.judge import ADDRESS_SPACE_BYTES, GRACE_S, Bench, Verdict
 
-GRACE_S = 3 * LIMIT_S  # on a loaded machine: a process that says nothing for so long is killed
+SILENCE_S = 2 * GRACE_S  # a process that says nothing for so long is killed
 
 
 def _serve(pipe: Connection, run: Path | None) -> None:
@@ -70,7 +70,7 @@ def judged(found: list[Case], *, jobs: int, run: Path) -> list[tuple[Case, Verdi
             if worker.case is None and waiting:
                 worker.give(waiting.pop())
         busy = [worker for worker in workers if worker.case is not None]
-        ready = wait([worker.pipe for worker in busy], GRACE_S)
+        ready = wait([worker.pipe for worker in busy], SILENCE_S)
         for worker in busy:
             if not ready or worker.pipe in ready:
                 case, worker.case = worker.case, None

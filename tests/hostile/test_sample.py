@@ -1,5 +1,6 @@
 """Sample of the corpus and of the fuzzers; `make hostile` and `make fuzz` run the whole."""
 
+import contextlib
 import os
 from pathlib import Path
 
@@ -11,8 +12,8 @@ import rockshape
 from rockshape.cli import main
 from rockshape.errors import InputError
 from rockshape.io import read_image, read_range
-from tests.hostile import fuzz, kill, soak
-from tests.hostile import seeds as seeds_module
+from rockshape.io.guard import guard
+from tests.hostile import fuzz, kill, scene, soak
 from tests.hostile.cases import SHARES, SIZE, cases
 from tests.hostile.judge import Bench
 from tests.hostile.seeds import readable_formats, seeds, seeds_of
@@ -43,13 +44,17 @@ def test_the_corpus_is_the_same_each_time_and_covers_every_format_and_command() 
     assert len(whole) == SIZE
 
 
-def test_seeds_are_read(tmp_path) -> None:
+def test_every_format_has_seeds_of_its_own_which_are_read(tmp_path) -> None:
     for index, seed in enumerate(seeds()):
-        path = tmp_path / f"seed{index}{seed.suffix}"
+        path = tmp_path / str(index) / f"hostile{seed.suffix}"
+        path.parent.mkdir()
         path.write_bytes(seed.data)
-        if seed.suffix != ".zip":
-            fuzz.read_file(seed.kind, path)
-    assert all(seeds_of(one) for one in readable_formats())
+        options = {"view": "1"} if seed.format == "COLMAP" else {}
+        options |= {"view": "3"} if seed.format == "BOP scene_camera" else {}
+        found = fuzz.READERS[seed.kind](path, **options)
+        assert seed.kind != "labels" or len(found) >= 1
+    for one in readable_formats():
+        assert {seed.format for seed in seeds_of(one)} == {one.name}
 
 
 def test_a_sample_of_the_corpus_is_read_or_refused_in_one_line(bench) -> None:
@@ -64,6 +69,27 @@ def test_the_fuzzers_find_nothing_in_a_few_examples(name) -> None:
     function, drawn = fuzz.FUZZERS[name]
     few = settings(max_examples=25, deadline=None, derandomize=True)
     few(given(*drawn)(fuzz.fresh(function)))()
+
+
+def test_what_takes_too_long_is_told_though_its_alarm_is_swallowed(monkeypatch) -> None:
+    monkeypatch.setattr(fuzz, "LIMIT_S", 0.05)
+    monkeypatch.setattr(fuzz, "TICK_S", 0.01)
+    fuzz.COUNTS.clear()
+    swallowed = 0
+    with (
+        pytest.raises(AssertionError, match=r"expected an end within 0\.05 s"),
+        fuzz.limited("loop"),
+    ):
+        while swallowed < 3:
+            with contextlib.suppress(TimeoutError):
+                while True:
+                    pass
+            swallowed += 1
+    late = pytest.raises(AssertionError, match="expected an end")
+    with late, fuzz.limited("loop"), guard(InputError):
+        while True:
+            pass
+    assert fuzz.COUNTS["loop", "late"] == 2
 
 
 @pytest.mark.parametrize("name", kill.COMMANDS)
@@ -82,17 +108,15 @@ def test_frames_leave_nothing_behind() -> None:
 
 @pytest.mark.parametrize("depth_m", [5e-315, 1e-60, 1e-7])
 def test_points_at_the_cameras_very_plane_are_none(depth_m, tmp_path) -> None:
-    points_m = seeds_module.points_m()
+    points_m = scene.points_m()
     points_m[20:26, 30:40] = (0.6, 0.1, depth_m)
     np.save(tmp_path / "xyz.npy", points_m)
-    camera = rockshape.Camera(**seeds_module.CAMERA)
-    found = read_range(tmp_path / "xyz.npy", shape=seeds_module.SHAPE, camera=camera)
+    camera = rockshape.Camera(**scene.CAMERA)
+    found = read_range(tmp_path / "xyz.npy", shape=scene.SHAPE, camera=camera)
     spoilt = np.isnan(found[..., 2])
     assert spoilt[20:26, 30:40].all()
     assert np.count_nonzero(spoilt) == 60
-    rockshape.measure(
-        seeds_module.image(), range_m=found, camera=camera, labels=seeds_module.labels()
-    )
+    rockshape.measure(scene.image(), range_m=found, camera=camera, labels=scene.labels())
 
 
 @pytest.mark.parametrize("name", ["/dev/zero", "/dev/null", "/"])
@@ -134,16 +158,14 @@ def test_a_picture_without_pixels_is_refused(tmp_path, monkeypatch) -> None:
 
 @pytest.mark.parametrize("near_m", [8e-320, 1e-60, 1e-10])
 def test_a_z_depth_of_nothing_is_none(near_m, tmp_path) -> None:
-    depth_m = seeds_module.depth_m()
+    depth_m = scene.depth_m()
     depth_m[20:35, 30:60] = near_m
     np.save(tmp_path / "depth.npy", depth_m)
-    camera = rockshape.Camera(**seeds_module.CAMERA)
-    found = read_range(tmp_path / "depth.npy", shape=seeds_module.SHAPE, camera=camera)
+    camera = rockshape.Camera(**scene.CAMERA)
+    found = read_range(tmp_path / "depth.npy", shape=scene.SHAPE, camera=camera)
     assert np.isnan(found[20:35, 30:60]).all()
     assert np.count_nonzero(np.isnan(found[..., 2])) == 15 * 30
-    rockshape.measure(
-        seeds_module.image(), range_m=found, camera=camera, labels=seeds_module.labels()
-    )
+    rockshape.measure(scene.image(), range_m=found, camera=camera, labels=scene.labels())
 
 
 def test_an_output_folder_whose_name_is_no_utf_8_is_refused(tmp_path, monkeypatch, capsys) -> None:
@@ -153,11 +175,11 @@ def test_an_output_folder_whose_name_is_no_utf_8_is_refused(tmp_path, monkeypatc
 
 
 def test_signalling_nan_says_nothing(tmp_path) -> None:
-    steps = seeds_module.points_m().astype("<f4")
+    steps = scene.points_m().astype("<f4")
     steps.view("<u4")[3, 4] = 0x7F800001  # IEEE 754: quiet bit clear
     np.save(tmp_path / "xyz.npy", steps)
-    camera = rockshape.Camera(**seeds_module.CAMERA)
-    found = read_range(tmp_path / "xyz.npy", shape=seeds_module.SHAPE, camera=camera)
+    camera = rockshape.Camera(**scene.CAMERA)
+    found = read_range(tmp_path / "xyz.npy", shape=scene.SHAPE, camera=camera)
     assert np.argwhere(np.isnan(found[..., 0])).tolist() == [[3, 4]]
 
 

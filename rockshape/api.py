@@ -11,7 +11,14 @@ from numpy.typing import ArrayLike, NDArray
 from rockshape.camera.camera import Camera, PinholeLike, as_camera
 from rockshape.camera.lens import Lens, as_lens
 from rockshape.errors import InputError
-from rockshape.io import ImageContent, read_labels, read_lens, read_picture, read_points
+from rockshape.io import (
+    ImageContent,
+    read_labels,
+    read_lens,
+    read_pair,
+    read_picture,
+    read_points,
+)
 from rockshape.io.decoding.orientation import UPRIGHT
 from rockshape.io.files import MAX_PIXELS
 from rockshape.io.pixels import to_grey
@@ -21,10 +28,12 @@ from rockshape.observation import Observation
 from rockshape.pipeline import measure as measure_observation
 from rockshape.point_grid.points import PointReading, RangeKind, points_from
 from rockshape.point_grid.units import RangeScale, parse_unit
-from rockshape.rock.instances import MAX_ID, MAX_LABEL, Instances
-from rockshape.rock.pieces import Pieces, split_pieces
+from rockshape.rock.given_labels import instances_of
+from rockshape.rock.instances import Instances
+from rockshape.rock.pieces import Pieces
 from rockshape.rock.rectification import rectification_of
 from rockshape.segmentation.finders import Finder
+from rockshape.stereo.pair_range import matching_note, points_of_arrays
 
 
 def measure(
@@ -32,6 +41,7 @@ def measure(
     *,
     range_m: ArrayLike | None = None,
     range_unit: str | None = None,
+    right: ArrayLike | None = None,
     camera: PinholeLike | None = None,
     labels: ArrayLike | Instances | None = None,
     pieces: Pieces = "split",
@@ -48,6 +58,8 @@ def measure(
       metres. NaN, infinity, a z-depth of 0 and the point (0, 0, 0) are no measurement.
     - range_unit: unit of range_m in place of metres, `mm` or `0.25mm` say; any distance is then
       believed. Without it a median distance below 1 cm or above 200 m is refused.
+    - right: right picture of a rectified stereo pair, in place of range; the image is the left one,
+      and its camera has `baseline_m` and may have `disparity_offset`, px.
     - camera: what took the image, any object with fx, fy, cx, cy in pixels. Needed for z-depth;
       else found from the points.
     - labels: rocks outlined already: (rows, cols) of whole numbers, 0 the ground, or Instances.
@@ -63,14 +75,19 @@ def measure(
     Raises: InputError where arrays do not fit each other, and where rocks are to be found by range
         and there is none.
     """
-    given = None if labels is None else _instances(labels, pieces)
+    given = None if labels is None else instances_of(labels, pieces)
     if isinstance(image, Observation):
-        if range_m is not None or camera is not None or range_unit is not None:
+        if any(each is not None for each in (range_m, range_unit, right, camera)):
             raise InputError("measure: expected an Observation's own range and camera, not both")
         observation = image
     else:
         observation = observe(
-            image, range_m=range_m, range_unit=range_unit, camera=camera, labels=given
+            image,
+            range_m=range_m,
+            range_unit=range_unit,
+            right=right,
+            camera=camera,
+            labels=given,
         )
     return measure_observation(
         observation, method=method, find=find, labels=given, descriptors=descriptors
@@ -82,6 +99,7 @@ def observe(
     *,
     range_m: ArrayLike | None = None,
     range_unit: str | None = None,
+    right: ArrayLike | None = None,
     camera: PinholeLike | None = None,
     labels: ArrayLike | Instances | None = None,
 ) -> Observation:
@@ -90,21 +108,28 @@ def observe(
     Raises: InputError where the arrays do not fit each other, or there are none.
     """
     pixels = None if image is None else np.asarray(image)
-    instances = None if labels is None else _instances(labels)
+    instances = None if labels is None else instances_of(labels)
     points = None if range_m is None else np.asarray(range_m)
     shapes = [array.shape[:2] for array in (pixels, points, instances) if array is not None]
     if not shapes:
         raise InputError("measure: expected image, range_m or labels, found none of them")
     known = None if camera is None else as_camera(camera, shape=shapes[0])
+    grey = np.zeros(shapes[0], dtype=np.float32) if pixels is None else to_grey(pixels)
     seen = None if points is None else _points(points, known, range_unit)
+    notes = () if instances is None else instances.notes
+    if right is not None:
+        if points is not None:
+            raise InputError("right: expected a stereo pair alone, found range_m beside it")
+        seen = points_of_arrays(grey, to_grey(np.asarray(right)), camera=camera, unit=range_unit)
+        notes = (matching_note(seen), *notes)
     return Observation(
-        image=np.zeros(shapes[0], dtype=np.float32) if pixels is None else to_grey(pixels),
+        image=grey,
         points_m=None if seen is None else seen.points_m,
         left_out={} if seen is None else seen.left_out,
         camera=known,
         colour=pixels if pixels is not None and pixels.ndim == 3 else None,
         instances=instances,
-        notes=() if instances is None else instances.notes,
+        notes=notes,
     )
 
 
@@ -114,6 +139,7 @@ def read(
     range: Path | str | None = None,  # noqa: A002 - as the command line has it
     range_kind: RangeKind | None = None,
     range_unit: str | None = None,
+    right: Path | str | None = None,
     camera: Path | str | None = None,
     camera_view: str | None = None,
     labels: Path | str | None = None,
@@ -123,9 +149,11 @@ def read(
     """Observation of files, as `rockshape measure` reads them; `measure` takes it.
 
     The formats are those of `rockshape formats`. range_kind tells what the range file holds, if not
-    what its format and shape do; range_unit is the unit of its numbers, `mm` or `0.25mm` say;
-    camera_view names one camera of a file of several. With labels, `measure` measures those rocks;
-    pieces tells what becomes of a mask without ids. An image of more than max_pixels is refused.
+    what its format and shape do; range_unit is the unit of its numbers, `mm` or `0.25mm` say, or of
+    the baseline. In place of range, right is the right picture of a stereo pair of which image is
+    the left one and camera describes both; the point of each pixel is then matched. camera_view
+    names one camera of a file of several. With labels, `measure` measures those rocks; pieces tells
+    what becomes of a mask without ids. An image of more than max_pixels is refused.
     Where the camera's lens distorts or its pixels are not square, image, range and rocks are
     resampled to those of a pinhole camera with square pixels.
     Raises: InputError, which names the file, for what cannot be read or does not fit the image.
@@ -133,18 +161,28 @@ def read(
     picture = read_picture(image, max_pixels=max_pixels)
     shape, name = picture.pixels.shape, Path(image).name
     lens = seen = instances = None
+    if right is not None and (range is not None or range_kind is not None):
+        raise InputError("--right: expected a stereo pair alone, found --range or --range-kind")
     with _telling_of_turning(picture):
         if camera is not None:
             lens = read_lens(camera, shape=shape, image_name=name, view=camera_view)
         if range is not None:
             seen = read_points(range, shape=shape, camera=lens, kind=range_kind, unit=range_unit)
+        if right is not None:
+            seen = read_pair(
+                right, left=picture.pixels, camera=lens, unit=range_unit, max_pixels=max_pixels
+            )
         if labels is not None:
             instances = read_labels(labels, shape=shape, image_name=name, pieces=pieces)
         observation = _observed(picture.pixels, lens, seen, instances)
     return replace(
         observation,
         pixel_size_m=picture.pixel_size_m if observation.image.shape == shape[:2] else None,
-        notes=(*_turning(picture), *observation.notes),
+        notes=(
+            *_turning(picture),
+            *([] if right is None or seen is None else [matching_note(seen)]),
+            *observation.notes,
+        ),
     )
 
 
@@ -193,12 +231,6 @@ def _turning(picture: ImageContent) -> tuple[str, ...]:
     )
 
 
-def _instances(labels: ArrayLike | Instances, pieces: Pieces = "split") -> Instances:
-    if isinstance(labels, Instances):
-        return labels
-    return split_pieces(Instances.from_labels(_whole(np.asarray(labels))), pieces)
-
-
 def _points(range_m: NDArray[np.generic], camera: Camera | None, unit: str | None) -> PointReading:
     """Points (rows, cols, 3), a fresh array; one with any part unknown is unknown whole."""
     by_dimensions: dict[int, RangeKind] = {2: "depth", 3: "xyz"}
@@ -212,15 +244,3 @@ def _points(range_m: NDArray[np.generic], camera: Camera | None, unit: str | Non
         return points_from(range_m, kind=kind, camera=as_lens(camera), scale=scale)
     except InputError as error:
         raise InputError(f"range_m: {error}") from None
-
-
-def _whole(labels: NDArray[np.generic]) -> NDArray[np.integer]:
-    if labels.ndim != 2 or labels.dtype.kind not in "biu":
-        raise InputError(
-            f"labels: expected (rows, cols) of whole numbers, "
-            f"found {labels.shape} of {labels.dtype}"
-        )
-    low, high = (int(labels.min()), int(labels.max())) if labels.size else (0, 0)
-    if low < 0 or high > MAX_ID:
-        raise InputError(f"labels: expected 0 to {MAX_ID}, found {low} to {high}")
-    return labels.astype(np.int32 if high <= MAX_LABEL else np.int64)

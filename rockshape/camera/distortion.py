@@ -12,7 +12,7 @@ import numpy as np
 from rockshape.numerics.arrays import Floats
 
 IDENTITY = np.eye(3)
-ITERATIONS = 20  # of Newton's method, quadratic
+ITERATIONS = 20  # of Newton's method, quadratic, at most
 STEP = 1e-5
 TOLERANCE = 1e-7
 
@@ -109,6 +109,8 @@ def _invert(model: Distortion, seen: Floats) -> Floats:
     with np.errstate(all="ignore"):
         for _ in range(ITERATIONS):
             miss = model.distort(ideal) - seen
+            if not (np.abs(miss) > TOLERANCE / 100).any():
+                break
             along, down = (
                 (model.distort(ideal + step) - model.distort(ideal - step)) / (2 * STEP)
                 for step in STEP * np.eye(2)

@@ -45,7 +45,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--range-unit",
         metavar="UNIT",
         help="unit of the range, m, mm or 0.25mm say: in place of metres, and of depth_scale for "
-        "whole numbers; any distance is then believed",
+        "whole numbers, or of a stereo baseline; any distance is then believed",
+    )
+    inputs.add_argument(
+        "--right",
+        type=Path,
+        metavar="FILE",
+        help="right picture of a stereo pair of which IMAGE is the left one, in place of --range; "
+        "--camera then describes both: a baseline_m, Q, or M1, M2, R and T of OpenCV, say",
     )
     inputs.add_argument(
         "--camera",

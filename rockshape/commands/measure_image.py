@@ -29,6 +29,7 @@ class MeasureOptions:
     range: Path | None
     range_kind: RangeKind | None
     range_unit: str | None
+    right: Path | None
     camera: Path | None
     camera_view: str | None
     labels: Path | None
@@ -58,6 +59,7 @@ def measure_image(options: MeasureOptions) -> None:
         range=options.range,
         range_kind=options.range_kind,
         range_unit=options.range_unit,
+        right=options.right,
         camera=options.camera,
         camera_view=options.camera_view,
         labels=_labels(options),
@@ -85,7 +87,13 @@ def _labels(options: MeasureOptions) -> Path | None:
 
 def _check_outputs(options: MeasureOptions) -> None:
     """Raises: InputError for an output that cannot be written, is an input or is named twice."""
-    inputs = (options.image, options.range, options.camera, _labels(options))
+    inputs = (
+        options.image,
+        options.range,
+        options.right,
+        options.camera,
+        _labels(options),
+    )
     taken = [path.resolve() for path in inputs if path is not None]
     for path in _outputs(options):
         if path.resolve() in taken:

@@ -13,6 +13,7 @@ from .readers import read_camera as read_camera
 from .readers import read_image as read_image
 from .readers import read_labels as read_labels
 from .readers import read_lens as read_lens
+from .readers import read_pair as read_pair
 from .readers import read_picture as read_picture
 from .readers import read_pixels as read_pixels
 from .readers import read_points as read_points

@@ -16,11 +16,13 @@ from rockshape.errors import InputError
 from rockshape.io.decoding.range_raster import points_of
 from rockshape.io.files import MAX_PIXELS
 from rockshape.io.format import ImageContent, ImageInfo
-from rockshape.io.pixels import to_levels, to_unit
+from rockshape.io.pixels import to_grey, to_levels, to_unit
 from rockshape.io.registry import CAMERAS, IMAGES, LABELS, RANGES
 from rockshape.point_grid.points import PointReading, RangeKind
+from rockshape.point_grid.units import RangeScale, parse_unit
 from rockshape.rock.instances import Instances
 from rockshape.rock.pieces import Pieces
+from rockshape.stereo.pair_range import points_of_pair
 
 
 def read_picture(path: Path | str, *, max_pixels: int = MAX_PIXELS) -> ImageContent:
@@ -107,6 +109,32 @@ def read_points(
         raster = chosen.read(file, info)
     try:
         return points_of(raster, info, camera=as_lens(camera), kind=kind, unit=unit)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+
+
+def read_pair(
+    path: Path | str,
+    *,
+    left: NDArray[np.generic],
+    camera: Lens | None,
+    unit: str | None = None,
+    max_pixels: int = MAX_PIXELS,
+) -> PointReading:
+    """Points (rows, cols, 3), m, at the pixels of a left picture, from the file of the right one.
+
+    - left: pixels of the left picture.
+    - camera: what took it, with its baseline or the right camera.
+    - unit: of the baseline, `mm` say, in place of metres.
+
+    Raises: InputError where the pictures or the camera are no stereo pair's.
+    """
+    if camera is None:
+        raise InputError("--right: expected a stereo camera (--camera), found none")
+    right = read_picture(path, max_pixels=max_pixels).pixels
+    scale = RangeScale() if unit is None else parse_unit(unit)
+    try:
+        return points_of_pair(to_grey(left), to_grey(right), camera=camera, scale=scale)
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
 

@@ -81,8 +81,11 @@ def read_opencv(file: "InputFile", info: ImageInfo | None) -> Lens:
     q = storage.numbers("Q")
     if k is None and q is not None:
         return _rectified(q, (width, height), info)
+    projections = storage.numbers("P1"), storage.numbers("P2")
+    if k is None and projections[0] is not None and projections[1] is not None:
+        return _projected(projections[0], projections[1], (width, height), info)
     if k is None:
-        raise file.refusal("no camera_matrix, M1 or Q")
+        raise file.refusal("no camera_matrix, M1, Q, or P1 and P2")
     terms = storage.numbers(*COEFFICIENTS, *LEFT_TERMS)
     distortion = None if terms is None else distortion_of(terms.ravel().tolist(), model)
     left = lens_of(k, (width, height), info, distortion=distortion)
@@ -112,6 +115,20 @@ def _rectified(q: Floats, size: tuple[int | None, int | None], info: ImageInfo |
     return lens_of(k, size, info, disparity=scale)
 
 
+def _projected(
+    left: Floats, right: Floats, size: tuple[int | None, int | None], info: ImageInfo | None
+) -> Lens:
+    """Left camera of a rectified pair of both projection matrices, P2 = K [I | -B x]."""
+    left, right = matrix(left, (3, 4), "P1"), matrix(right, (3, 4), "P2")
+    if not right[0, 3] < 0 or right[1, 3] or not right[0, 0] > 0:
+        raise InputError(
+            f"camera: P2: expected a right camera beside the left, -f B and 0 in its last column, "
+            f"found {right[:2, 3].tolist()}"
+        )
+    scale = DisparityScale(float(-right[0, 3] / right[0, 0]), float(right[0, 2] - left[0, 2]))
+    return lens_of(left[:, :3], size, info, disparity=scale)
+
+
 def _right(storage: _Storage, left: Lens, info: ImageInfo | None) -> RightCamera | None:
     k = storage.numbers(*RIGHT)
     rotation, translation = storage.numbers("R"), storage.numbers("T")
@@ -128,7 +145,7 @@ FORMAT = CameraFormat(
     name="OpenCV",
     suffixes=(".yml", ".yaml", ".json", ".xml"),
     summary="FileStorage with `camera_matrix` and `distortion_coefficients`; `M1`, `D1`, `M2`, "
-    "`D2`, `R`, `T` of a stereo pair; or `Q` of a rectified one",
+    "`D2`, `R`, `T` of a stereo pair; or `Q`, or `P1` and `P2`, of a rectified one",
     sniff=lambda head: _MARK.search(head) is not None,
     read=read_opencv,
 )

@@ -7,10 +7,12 @@ import numpy as np
 
 from synth.camera.camera import Pose, RenderCamera
 from synth.dataset.bop import model_info
+from synth.dataset.further_truth import form_outline, further_truth
 from synth.geometry.mesh import Mesh
 from synth.render.view import Sight
-from synth.rocks.outlines import Form, mesh_form, plane_across
+from synth.rocks.outlines import Form, plane_across
 from synth.scene.scene import PlacedRock, SceneModel
+from synth.spec.truth import TruthSpec
 
 Table = dict[str, Any]
 
@@ -23,18 +25,24 @@ def scene_gt_shape(
     views: Sequence[Sight],
     *,
     models: Sequence[Mesh] | None = None,
+    wanted: TruthSpec | None = None,
 ) -> Table:
     """Table of scene_gt_shape.json: each rock's truth, and how each view sees it.
 
     `first_id` is the first rock's object id; `models` are the dataset's models where they are not
-    the rocks' own meshes.
+    the rocks' own meshes; `wanted` is the further truth that is asked for.
     """
     models = [placed.rock.mesh for placed in scene.rocks] if models is None else models
-    forms = [placed.rock.form or mesh_form(placed.rock.mesh) for placed in scene.rocks]
+    forms = [placed.rock.outlines() for placed in scene.rocks]
+    wanted = TruthSpec() if wanted is None else wanted
+    told = [
+        _rock(placed, instance, first_id + instance, model)
+        for instance, (placed, model) in enumerate(zip(scene.rocks, models, strict=True))
+    ]
     return {
         "rocks": [
-            _rock(placed, instance, first_id + instance, model)
-            for instance, (placed, model) in enumerate(zip(scene.rocks, models, strict=True))
+            rock | further_truth(placed.rock, form, rock, wanted)
+            for rock, placed, form in zip(told, scene.rocks, forms, strict=True)
         ],
         "views": {
             str(number): [
@@ -43,6 +51,7 @@ def scene_gt_shape(
                     **_visibility(scene.camera, view, instance),
                     **_scale(scene.camera, pose, placed),
                     **_outline(pose, placed, form),
+                    **form_outline(pose, placed, wanted),
                 }
                 for instance, (placed, form) in enumerate(zip(scene.rocks, forms, strict=True))
             ]

@@ -41,7 +41,7 @@ from synth.render.interface import Renderer
 from synth.render.view import Sight
 from synth.scene.scene import SceneModel, build_scene
 from synth.sensor import Capture, capture_view, sensor_of
-from synth.spec import RendererName, SceneSpec
+from synth.spec import RendererName, SceneSpec, truth_of
 
 PARTIAL = ".partial"  # folder of scenes that are not whole yet, gone when the dataset is
 _DISTRIBUTIONS = ("rockshape", "numpy", "scipy", "trimesh", "opencv-python-headless", "embreex")
@@ -90,7 +90,7 @@ def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -
         "gt": bop.scene_gt(scene, first_id, origins_m),
         "gt_info": bop.scene_gt_info(scene, views, valid),
         "gt_coco": bop.scene_gt_coco(scene, index, first_id, views),
-        "gt_shape": scene_gt_shape(scene, first_id, views, models=models),
+        "gt_shape": scene_gt_shape(scene, first_id, views, models=models, wanted=truth_of(spec)),
     }
     for name, table in tables.items():
         write_json(folder / f"scene_{name}.json", table)

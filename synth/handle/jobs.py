@@ -18,7 +18,7 @@ from synth.light import light_scene
 from synth.render import choose_backend, open_renderer
 from synth.scene.scene import SceneModel, build_scene
 from synth.sensor import sensor_of
-from synth.spec import SceneSpec
+from synth.spec import SceneSpec, truth_of
 
 Rows = list[dict[str, Any]]
 
@@ -52,9 +52,9 @@ def build(spec: SceneSpec, index: int) -> BuiltScene:
         SpecError: the rocks do not fit on the ground.
     """
     model = build_scene(spec, index)
-    rocks = plain(
-        scene_gt_shape(replace(model, poses=()), first_object_id(spec, index), [])["rocks"]
-    )
+    unseen = replace(model, poses=())
+    table = scene_gt_shape(unseen, first_object_id(spec, index), [], wanted=truth_of(spec))
+    rocks = plain(table["rocks"])
     return BuiltScene(model=pickle.dumps(model), rocks=rocks)
 
 
@@ -72,7 +72,8 @@ def render(spec: SceneSpec, index: int, number: int, model: bytes) -> ViewParts:
     view, capture = capture_frame(spec, index, number, scene=scene, stage=stage, renderer=renderer)
     scale_mm = depth_scale_mm(spec)
     seen = replace(scene, poses=(scene.poses[number],))
-    truth = plain(scene_gt_shape(seen, first_object_id(spec, index), [view.sight()]))
+    first_id = first_object_id(spec, index)
+    truth = plain(scene_gt_shape(seen, first_id, [view.sight()], wanted=truth_of(spec)))
     return ViewParts(
         image=capture.picture,
         depth_m=decode_depth(encode_depth(capture.depth_m, scale_mm), scale_mm),

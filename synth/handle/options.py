@@ -42,6 +42,7 @@ class SceneOptions(TypedDict, total=False):
     sun: Table
     sensor: Table
     dataset: Table
+    truth: Table
 
 
 def spec_of(source: SpecSource | None, options: Mapping[str, Any]) -> SceneSpec:

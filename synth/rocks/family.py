@@ -33,6 +33,7 @@ class Family:
     members: tuple[str, ...] = ()
     truth: Literal["exact", "mesh"] = "mesh"  # closed forms; or the mesh is the body
     always_rough: bool = False  # has relief whether or not the spec asks for it
+    extended: bool = False  # its rocks have the further truth of [truth] without being asked
     limits: Callable[[RocksSpec], None] | None = None  # raises ValueError, see `check`
     options: type[Struct] | None = None  # of the table [rocks.options]
 

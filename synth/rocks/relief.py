@@ -16,7 +16,7 @@ from synth.geometry.mesh import (
     volume_m3,
 )
 from synth.geometry.min_volume_box import smallest_box
-from synth.rocks.record import RockModel
+from synth.rocks.record import RockModel, SmoothForm
 from synth.rocks.resample import even_mesh
 from synth.rocks.sphere import SUBDIVISIONS, band_limited
 from synth.rocks.truth import Truth, half_axes_of_covariance_m
@@ -67,10 +67,10 @@ def with_relief(
         "degree_high": float(degrees[1]),
         "mesh_area_m2": area_m2(rough),
     }
-    return replace(
-        boxed(rock.family, rough, knobs=knobs, relief_rms_m=relief_rms * size_m, degrees=degrees),
-        source=rock.source,
+    turned, axes = turned_to_box(
+        rock.family, rough, knobs=knobs, relief_rms_m=relief_rms * size_m, degrees=degrees
     )
+    return replace(turned, source=rock.source, under=SmoothForm(rock, axes))
 
 
 def displaced(
@@ -105,6 +105,18 @@ def boxed(
     degrees: tuple[int, int] | None,
 ) -> RockModel:
     """Rock that a mesh is, turned into its smallest box, its centroid at the origin."""
+    return turned_to_box(family, mesh, knobs=knobs, relief_rms_m=relief_rms_m, degrees=degrees)[0]
+
+
+def turned_to_box(
+    family: str,
+    mesh: Mesh,
+    *,
+    knobs: dict[str, float],
+    relief_rms_m: float | None,
+    degrees: tuple[int, int] | None,
+) -> tuple[RockModel, Floats]:
+    """Rock that a mesh is, in its smallest box's frame, and the rotation (3, 3) to that frame."""
     box = smallest_box(mesh.vertices_m)
     truth = Truth(
         half_axes_box_m=box.half_sides_m,
@@ -115,12 +127,8 @@ def boxed(
         relief_rms_m=relief_rms_m,
         relief_degrees=degrees,
     )
-    return RockModel(
-        family=family,
-        knobs=knobs,
-        mesh=mesh.moved(box.axes, -box.axes @ centroid_m(mesh)),
-        truth=truth,
-    )
+    moved = mesh.moved(box.axes, -box.axes @ centroid_m(mesh))
+    return RockModel(family=family, knobs=knobs, mesh=moved, truth=truth), box.axes
 
 
 def _subdivisions(rock: RockModel, last_degree: int) -> int:

@@ -52,7 +52,7 @@ def draw_rock(
         own = rng.spawn(1)[0]
         rms = own.uniform(*spec.relief_rms)
         rock = with_relief(rock, relief_rms=rms, degrees=spec.relief_degrees, rng=own)
-    return replace(rock, family=family.name)
+    return replace(rock, family=family.name, extended=family.extended)
 
 
 def graded(spec: RocksSpec, *, rng: np.random.Generator) -> list[RockModel]:
@@ -99,6 +99,7 @@ def by_relief(spec: RocksSpec, *, rng: np.random.Generator) -> list[RockModel]:
                 base, relief_rms=rms, degrees=spec.relief_degrees, rng=np.random.default_rng(seed)
             ),
             family=spec.family,
+            extended=find_family(spec.family).extended,
         )
         for rms in counted(np.linspace(*spec.relief_rms, spec.count).tolist(), "rocks")
     ]

@@ -13,6 +13,7 @@ from synth.spec.rocks import RocksSpec
 from synth.spec.sensor import NoiseSpec, SensorSpec
 from synth.spec.surface import SurfaceSpec
 from synth.spec.toml import read_toml
+from synth.spec.truth import TruthSpec
 from synth.spec.view import CameraSpec, SunSpec, ViewsSpec
 
 RendererName = Literal["auto", "osmesa", "egl", "embree"]
@@ -36,6 +37,7 @@ class SceneSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     noise: NoiseSpec = NoiseSpec()
     sensor: SensorSpec = SensorSpec()
     dataset: DatasetSpec | UnsetType = UNSET  # not written to manifests unless it is given
+    truth: TruthSpec | UnsetType = UNSET  # likewise
 
     def __post_init__(self) -> None:
         """Reject counted rocks on a pan: none could lie in every view."""
@@ -48,6 +50,11 @@ class SceneSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
 def dataset_of(spec: SceneSpec) -> DatasetSpec:
     """Parameters of the dataset as a whole: the spec's, or the defaults."""
     return DatasetSpec() if isinstance(spec.dataset, UnsetType) else spec.dataset
+
+
+def truth_of(spec: SceneSpec) -> TruthSpec:
+    """Further truth that is asked for: the spec's, or none."""
+    return TruthSpec() if isinstance(spec.truth, UnsetType) else spec.truth
 
 
 def load_spec(path: Path) -> SceneSpec:

@@ -14,6 +14,7 @@ from synth.rocks import quarry
 from synth.spec import SceneSpec, convert_spec
 from synth.spec.dataset import DatasetSpec
 from synth.spec.rocks import FAMILIES, RocksSpec
+from synth.spec.truth import TruthSpec
 
 ROOT = Path(__file__).parents[2]
 SCENES, DATASET = ((ROOT / "docs" / f"{name}.md").read_text() for name in ("scenes", "dataset"))
@@ -95,6 +96,11 @@ def test_the_keys_above_all_tables_are_told_with_their_defaults():
 def test_the_keys_of_the_dataset_have_the_specs_defaults():
     found = documented_defaults(section("Datasets for training", DATASET).split("\n\n")[0])
     assert found == {f"dataset.{k}": v for k, v in defaults_of(DatasetSpec()).items()}
+
+
+def test_the_keys_of_the_further_truth_have_the_specs_defaults():
+    found = documented_defaults(section("Further truth", DATASET).split("\n\n")[1])
+    assert found == {f"truth.{k}": v for k, v in defaults_of(TruthSpec()).items()}
 
 
 def test_the_sensors_keys_have_the_specs_defaults():
@@ -190,6 +196,18 @@ def test_every_field_of_the_truth_has_a_row_with_its_unit(dataset):
                 wanted = units.get(key.rsplit("_", 1)[-1], "")
                 if wanted:
                     assert given == wanted, key
+
+
+def test_every_field_of_the_further_truth_has_a_row(tmp_path):
+    further = {**SPEC, "truth": {"caliper": True, "form": True}, "noise": {"kind": "none"}}
+    names_of = []
+    for name, table in (("plain", {**further, "truth": {}}), ("further", further)):
+        generate_dataset(convert_spec(table, where="test"), tmp_path / name)
+        truth = json.loads((tmp_path / name / "000000" / "scene_gt_shape.json").read_text())
+        names_of.append((set(truth["rocks"][0]), set(truth["views"]["0"][0])))
+    text = section("Further truth", DATASET).split("Of a rock, in `rocks`")[1]
+    told = [{n for cells in rows(part) for n in names(cells[0])} for part in text.split("Of an")]
+    assert told == [more - plain for plain, more in zip(*names_of, strict=True)]
 
 
 @pytest.mark.parametrize("family", sorted(FAMILIES.own))

@@ -25,6 +25,9 @@ class Form(Protocol):
     def outline(self, across: Floats) -> OutlineTruth:
         """Outline on the plane of two rows of unit vectors across the rays, (2, 3)."""
 
+    def caliper_half_axes_m(self) -> Floats:
+        """Caliper half-axes L >= I >= S, (3,); see `synth.geometry.caliper`."""
+
 
 def plane_across(ray: Floats) -> Floats:
     """Two unit vectors, (2, 3), that with the ray (3,) make a right-handed frame."""

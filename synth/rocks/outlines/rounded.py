@@ -6,6 +6,7 @@ import numpy as np
 from scipy.spatial import ConvexHull
 
 from synth.arrays import Floats
+from synth.geometry.caliper import caliper_half_axes_m
 from synth.geometry.inscribed_ball import largest_ball
 from synth.rocks.outlines.record import OutlineTruth, axis_ratio
 
@@ -26,6 +27,10 @@ class RoundedHull:
     def moved(self, rotation: Floats, translation_m: Floats) -> "RoundedHull":
         """Body turned by a rotation (3, 3), then shifted by a translation (3,)."""
         return RoundedHull(self.vertices_m @ rotation.T + translation_m, self.radius_m)
+
+    def caliper_half_axes_m(self) -> Floats:
+        """Caliper half-axes L >= I >= S, (3,), exact."""
+        return caliper_half_axes_m(self.vertices_m, margin_m=self.radius_m)
 
     def outline(self, across: Floats) -> OutlineTruth:
         """Outline Q ⊕ disc, with Q the hull of the projected vertices.

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from synth.arrays import Floats, Ints
+from synth.geometry.caliper import caliper_half_axes_m
 from synth.geometry.mesh import Mesh
 from synth.rocks.outlines.record import OutlineTruth, polygon_outline
 from synth.rocks.outlines.smoothed import SCALE, smoothed_roundness
@@ -24,6 +25,10 @@ class MeshForm:
     def outline(self, across: Floats) -> OutlineTruth:
         """Outline under parallel rays; see `silhouette`."""
         return self.silhouette(across)
+
+    def caliper_half_axes_m(self) -> Floats:
+        """Caliper half-axes L >= I >= S, (3,), of the mesh."""
+        return caliper_half_axes_m(self.vertices_m)
 
     def silhouette(
         self, across: Floats, *, camera_m: float | None = None, bearings: int = BEARINGS

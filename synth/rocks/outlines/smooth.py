@@ -6,8 +6,10 @@ import numpy as np
 from scipy.special import ellipe
 
 from synth.arrays import Floats
-from synth.rocks.outlines.record import OutlineTruth, polygon_outline
+from synth.geometry.min_volume_box import spread_directions
+from synth.rocks.outlines.record import OutlineTruth, plane_across, polygon_outline
 
+_STARTS, _TURNS = 64, 200  # of the search for the greatest radius
 DIRECTIONS = 8192  # tangents of a superellipsoid's outline; half as many move it by < 1e-3
 
 
@@ -16,6 +18,10 @@ class EllipsoidForm:
     """Ellipsoid along the axes."""
 
     half_axes_m: Floats  # (3,)
+
+    def caliper_half_axes_m(self) -> Floats:
+        """Caliper half-axes: an ellipsoid's own."""
+        return np.sort(self.half_axes_m)[::-1].copy()
 
     def outline(self, across: Floats) -> OutlineTruth:
         """Outline, an ellipse p >= q: A = πpq, L = 4pE(1 − q²/p²), exact.
@@ -37,6 +43,24 @@ class SuperellipsoidForm:
 
     half_axes_m: Floats  # (3,)
     exponents: tuple[float, float]  # p, round the z axis; q, towards it
+
+    def caliper_half_axes_m(self) -> Floats:
+        """Caliper half-axes L >= I >= S, (3,).
+
+        The body is symmetric about its middle: L is its greatest radius x, where the normal's
+        contact point lies on the normal, I the greatest of the support function across x.
+        """
+        radii = spread_directions(_STARTS)
+        for _ in range(_TURNS):
+            radii = self.contact_m(radii / np.linalg.norm(radii, axis=1, keepdims=True))
+        lengths_m = np.linalg.norm(radii, axis=1)
+        first = radii[np.argmax(lengths_m)] / lengths_m.max()
+        turn_rad = np.pi * np.arange(DIRECTIONS) / DIRECTIONS
+        around = np.column_stack([np.cos(turn_rad), np.sin(turn_rad)]) @ plane_across(first)
+        extents_m = np.einsum("ij,ij->i", self.contact_m(around), around)
+        best = int(np.argmax(extents_m))
+        shortest_m = extents_m[(best + DIRECTIONS // 2) % DIRECTIONS]
+        return np.array([lengths_m.max(), extents_m[best], shortest_m])
 
     def contact_m(self, directions: Floats) -> Floats:
         """Points (n, 3) of the surface whose outward normals are given, (n, 3).

@@ -75,14 +75,13 @@ def form_outline(pose: Pose, placed: PlacedRock, wanted: TruthSpec) -> Table:
 
 
 def _form(truth: Truth | None) -> Table:
-    known = truth is not None
+    if truth is None:
+        return dict.fromkeys(name for name in REASONS if name.startswith("form_"))
     return {
-        "form_half_axes_box_m": truth.half_axes_box_m if known else None,
-        "form_half_axes_inertia_m": truth.half_axes_inertia_m if known else None,
-        "form_maximum_projection_sphericity": (
-            truth.maximum_projection_sphericity() if known else None
-        ),
-        "form_roundness": truth.roundness if known else None,
+        "form_half_axes_box_m": truth.half_axes_box_m,
+        "form_half_axes_inertia_m": truth.half_axes_inertia_m,
+        "form_maximum_projection_sphericity": truth.maximum_projection_sphericity(),
+        "form_roundness": truth.roundness,
     }
 
 

@@ -45,7 +45,7 @@ class BrownConrady:
 
     def undistort(self, seen: Floats) -> Floats:
         """Points of the ideal plane that the lens shows, by Newton's iteration."""
-        return _invert(self, seen)
+        return newton_inverse(self, seen)
 
 
 @dataclass(frozen=True)
@@ -103,8 +103,8 @@ def _ratio(numerator: Floats, denominator: Floats) -> Floats:
     return np.where(at_axis, 1.0, numerator / np.where(at_axis, 1.0, denominator))
 
 
-def _invert(model: Distortion, seen: Floats) -> Floats:
-    """Ideal points by Newton's iteration from what is seen; NaN where it does not get there."""
+def newton_inverse(model: Distortion, seen: Floats) -> Floats:
+    """Ideal points (n, 2) of seen ones by Newton's iteration; NaN where it does not get there."""
     ideal = seen.copy()
     with np.errstate(all="ignore"):
         for _ in range(ITERATIONS):

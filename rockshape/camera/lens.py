@@ -83,12 +83,16 @@ class Lens:
         """Directions (rows, cols, 3), z = 1, of the pixels; NaN where the lens shows nothing."""
         rows, cols = self.shape
         v, u = np.mgrid[:rows, :cols].reshape(2, -1).astype(np.float64)
-        y = (v - self.pinhole.cy) / self.pinhole.fy
-        x = (u - self.pinhole.cx - self.skew_px * y) / self.pinhole.fx
+        return self.rays_at(np.column_stack([u, v])).reshape(rows, cols, 3)
+
+    def rays_at(self, pixels: Floats) -> Floats:
+        """Directions (n, 3), z = 1, of pixels (n, 2) as (x, y); NaN where nothing is shown."""
+        y = (pixels[:, 1] - self.pinhole.cy) / self.pinhole.fy
+        x = (pixels[:, 0] - self.pinhole.cx - self.skew_px * y) / self.pinhole.fx
         plane = np.column_stack([x, y])
         if self.distortion is not None:
             plane = self.distortion.undistort(plane)
-        return np.column_stack([plane, np.ones(len(plane))]).reshape(rows, cols, 3)
+        return np.column_stack([plane, np.ones(len(plane))])
 
     def project(self, points_m: Floats) -> Floats:
         """Pixel coordinates (..., 2) as (x, y) of points (..., 3) in the camera's frame."""

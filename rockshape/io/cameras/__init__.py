@@ -7,6 +7,7 @@ from rockshape.io.cameras import (
     nerfstudio,
     open3d,
     opencv_storage,
+    pds_cahv,
     pinhole_json,
     realsense,
     ros,
@@ -22,4 +23,6 @@ FORMATS = (
     colmap.FORMAT,
     realsense.FORMAT,
     middlebury.FORMAT,
+    pds_cahv.PDS3,
+    pds_cahv.PDS4,
 )

@@ -2,10 +2,11 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, TypeVar
 
+import msgspec
 import numpy as np
-from msgspec import Struct
+from msgspec import Struct, UnsetType
 
 from synth.arrays import Floats
 from synth.rocks.record import RockModel
@@ -66,6 +67,14 @@ def register_family(family: Family) -> Family:
     """
     FAMILIES.register(family)
     return family
+
+
+Options = TypeVar("Options", bound=Struct)
+
+
+def own_options(spec: RocksSpec, kind: type[Options]) -> Options:
+    """Options of the struct `kind` that the spec, which has been checked, holds."""
+    return msgspec.convert({} if isinstance(spec.options, UnsetType) else spec.options, kind)
 
 
 def family_options(spec: RocksSpec) -> Struct | None:

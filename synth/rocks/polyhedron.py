@@ -98,7 +98,7 @@ def tangent_cuts(half_axes_m: Floats, *, cuts: int, rng: np.random.Generator) ->
         SpecError: so few cuts that no bounded body of decent proportions came up.
     """
     for _ in range(_ATTEMPTS):
-        normals = _spread_directions(cuts, rng)
+        normals = spread_normals(cuts, rng)
         try:
             ball = from_half_spaces(normals, np.ones(cuts))
         except SpecError:
@@ -147,7 +147,7 @@ def _surround_origin(normals: Floats) -> bool:
         return False
 
 
-def _spread_directions(count: int, rng: np.random.Generator) -> Floats:
+def spread_normals(count: int, rng: np.random.Generator) -> Floats:
     """Unit vectors, (count, 3): each the best of a few (Mitchell 1991)."""
     chosen = np.empty((count, 3))
     for index in range(count):

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from msgspec import Meta
+from msgspec import Meta, Struct
 
 Positive = Annotated[float, Meta(gt=0, le=1000)]
 Degrees = Annotated[float, Meta(ge=-360, le=360)]
@@ -21,3 +21,9 @@ def check_range(name: str, limits: tuple[float, float]) -> None:
     low, high = limits
     if not low <= high:
         raise ValueError(f"{name}: expected [low, high] with low <= high, found [{low}, {high}]")
+
+
+def check_ranges(table: Struct, *names: str) -> None:
+    """Raise ValueError unless those ranges of a table are in rising order."""
+    for name in names:
+        check_range(name, getattr(table, name))

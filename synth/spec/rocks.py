@@ -22,6 +22,8 @@ Cuts = Annotated[int, Meta(ge=6, le=80)]
 Chips = Annotated[int, Meta(ge=0, le=200)]
 Rounding = Annotated[float, Meta(ge=0.005, le=5)]
 Exponent = Annotated[float, Meta(ge=2, le=10)]
+Softness = Annotated[float, Meta(ge=0.01, le=0.5)]
+Subdivisions = Annotated[int, Meta(ge=4, le=7)]
 Degree = Annotated[int, Meta(ge=1, le=60)]
 Files = Annotated[tuple[str, ...], Meta(max_length=1000)]
 
@@ -49,6 +51,11 @@ FAMILIES: Registry[FamilyRecord] = Registry(
         "perturbed": "synth.rocks.families.perturbed:PERTURBED",
         "superellipsoid": "synth.rocks.families.superellipsoid:SUPERELLIPSOID",
         "realistic": "synth.rocks.families.realistic:REALISTIC",
+        "dented": "synth.rocks.families.dented:DENTED",
+        "lumpy": "synth.rocks.families.lumpy:LUMPY",
+        "broken": "synth.rocks.families.broken:BROKEN",
+        "vesicular": "synth.rocks.families.vesicular:VESICULAR",
+        "slab": "synth.rocks.families.slab:SLAB",
         "scan": "synth.rocks.families.scan:SCAN",
         "mixed": "synth.rocks.families.mixed:MIXED",
     },
@@ -65,7 +72,7 @@ class RealismSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True)
     waviness: tuple[Fraction, Fraction] = (0.02, 0.05)  # RMS of a face's undulation over its size
     relief_rms: tuple[Fraction, Fraction] = (0.003, 0.008)  # over the cube root of abc
     relief_degrees: tuple[Degree, Degree] = (15, 45)  # spherical harmonics, both ends included
-    subdivisions: Annotated[int, Meta(ge=4, le=7)] = 6  # 20 × 4^n facets
+    subdivisions: Subdivisions = 6  # 20 × 4^n facets
 
     def __post_init__(self) -> None:
         """Require ranges in rising order."""

@@ -87,6 +87,21 @@ def test_the_tables_of_keys_have_the_specs_defaults(title, tables):
     assert [documented_defaults(part) for part in paragraphs] == [defaults_of(t) for t in tables]
 
 
+def test_the_options_of_the_concave_families_have_their_defaults():
+    part = (
+        section("`[rocks]`", SCENES).split("`[rocks.options]` of")[1].split("A family of your")[0]
+    )
+    told = {}
+    for family, keys, defaults, _ in rows(part):
+        values = ast.literal_eval(f"[{defaults}]")
+        told.setdefault(names(family)[0], {"subdivisions": 6}).update(
+            zip(names(keys), values, strict=True)
+        )
+    assert len(told) == 5
+    for family, found in told.items():
+        assert found == defaults_of(FAMILIES.find(family).options())
+
+
 def test_the_keys_above_all_tables_are_told_with_their_defaults():
     told = dict(re.findall(r"`(seed|scenes|renderer)`\s\(`?(\w+)", SCENES))
     tables = {key for key, value in defaults_of(DEFAULT).items() if value is None}

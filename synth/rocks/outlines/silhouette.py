@@ -35,11 +35,23 @@ class MeshForm:
     ) -> OutlineTruth:
         """Outline on the plane through the origin, its rows `across` (2, 3).
 
+        With `camera_m` the rays come from a point at that distance from the origin: what
+        perspective makes of the outline. Its roundness is that of the outline smoothed at a
+        scale. See `silhouette_points_m`.
+        """
+        points_m = self.silhouette_points_m(across, camera_m=camera_m, bearings=bearings)
+        return polygon_outline(
+            points_m, roundness=smoothed_roundness(points_m), roundness_scale=SCALE
+        )
+
+    def silhouette_points_m(
+        self, across: Floats, *, camera_m: float | None = None, bearings: int = BEARINGS
+    ) -> Floats:
+        """Points (bearings, 2) of the outline, anticlockwise, at even bearings.
+
         Where a face turned to the viewer meets one turned away lies an edge that may be on the
         outline; the outline's radius on a bearing from the origin is the farthest such edge's. So
-        a notch that cannot be seen from the middle is bridged. With `camera_m` the rays come from
-        a point at that distance from the origin: what perspective makes of the outline. Its
-        roundness is that of the outline smoothed at a scale.
+        a notch that cannot be seen from the middle is bridged.
         """
         flat_m = self.vertices_m @ across.T
         if camera_m is not None:
@@ -51,10 +63,8 @@ class MeshForm:
         contour = front[self.sides[:, 0]] != front[self.sides[:, 1]]
         radii_m = _farthest_m(flat_m[self.edges[contour]], bearings)
         turn_rad = 2.0 * np.pi * np.arange(bearings) / bearings
-        points_m = radii_m[:, None] * np.column_stack([np.cos(turn_rad), np.sin(turn_rad)])
-        return polygon_outline(
-            points_m, roundness=smoothed_roundness(points_m), roundness_scale=SCALE
-        )
+        turns = np.column_stack([np.cos(turn_rad), np.sin(turn_rad)])
+        return np.asarray(radii_m[:, None] * turns)
 
 
 def mesh_form(mesh: Mesh) -> MeshForm:

@@ -1,0 +1,69 @@
+"""Star-shaped surface of several parts, meshed so that facets' edges run along the creases."""
+
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from synth.arrays import Floats, Ints
+from synth.geometry.mesh import Mesh, vertex_normals
+from synth.rocks.sphere import unit_sphere
+
+_BISECTIONS = 14  # of an edge: 1e-4 of its length
+_REACH = 0.505  # share of an edge that a vertex may move along it: to its middle, if need be
+
+
+class Surface(Protocol):
+    """Surface round the origin, known along each direction."""
+
+    def points(self, directions: Floats) -> tuple[Floats, Ints]:
+        """Points (n, 3) of the surface, one for each direction (n, 3), and their parts (n,).
+
+        Where the part changes the surface may have a crease.
+        """
+
+
+def star_mesh(surface: Surface, subdivisions: int) -> Mesh:
+    """Mesh of 20 × 4^subdivisions facets, its vertices on the surface, some on its creases."""
+    directions, faces = unit_sphere(subdivisions)
+    vertices, parts = surface.points(directions)
+    if (parts != parts[0]).any():
+        vertices, _ = surface.points(_creased(surface, directions, faces, parts))
+    faces = faces.copy()
+    return Mesh(vertices_m=vertices, faces=faces, normals=vertex_normals(vertices, faces))
+
+
+def _creased(surface: Surface, directions: Floats, faces: Ints, parts: Ints) -> Floats:
+    """Directions (n, 3), those next to a change of part moved onto it along an edge.
+
+    A vertex goes to the nearest change on its edges, no farther than the edge's middle; in facets
+    that this would turn over it stays.
+    """
+    edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    edges = edges[parts[edges[:, 0]] != parts[edges[:, 1]]]  # each from both of its ends
+    starts, ends = directions[edges[:, 0]], directions[edges[:, 1]]
+    low, high = np.zeros(len(edges)), np.ones(len(edges))
+    for _ in range(_BISECTIONS):
+        middle = (low + high) / 2.0
+        same = surface.points(_between(starts, ends, middle))[1] == parts[edges[:, 0]]
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    order = np.argsort(-high, kind="stable")  # of a vertex's edges the nearest change comes last
+    order = order[high[order] < _REACH]
+    moved = directions.copy()
+    moved[edges[order, 0]] = _between(starts[order], ends[order], high[order])
+    folded = _turned_over(moved, faces)
+    while folded.any():
+        moved[faces[folded]] = directions[faces[folded]]
+        folded = _turned_over(moved, faces)
+    return moved
+
+
+def _between(starts: Floats, ends: Floats, shares: Floats) -> Floats:
+    """Directions (n, 3) at shares (n,) of the ways from one to another."""
+    mixed = starts + shares[:, None] * (ends - starts)
+    return np.asarray(mixed / np.linalg.norm(mixed, axis=1, keepdims=True))
+
+
+def _turned_over(directions: Floats, faces: Ints) -> NDArray[np.bool_]:
+    one, two, three = directions[faces].transpose(1, 0, 2)
+    return np.asarray(np.einsum("ij,ij->i", np.cross(one, two), three) <= 0.0)

@@ -94,7 +94,8 @@ def locate_camera(observation: Observation) -> Observation:
     if points_m is None or observation.camera is not None:
         return observation
     # brings scipy.optimize, a fifth of a second
-    from rockshape.camera.resection import calibrate, resect  # noqa: PLC0415
+    from rockshape.camera.calibration import calibrate  # noqa: PLC0415
+    from rockshape.camera.resection import resect  # noqa: PLC0415
 
     resection = calibrate(points_m)
     if resection is None or resection.residual_px > SURE_RESIDUAL_PX:

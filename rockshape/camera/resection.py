@@ -7,16 +7,28 @@ length, with square pixels and the principal point in the middle of the frame.
 
 from dataclasses import dataclass
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
 from rockshape.camera.camera import Camera
+from rockshape.camera.direct_linear import direct_linear
+from rockshape.numerics.robust_scale import median_scale
 
 SAMPLE = 2000  # pixels used: enough for 1e-2 px, and quick
 MIN_PIXELS = 12  # pixels below which seven unknowns are not worth solving for
+MAX_LOG_FOCAL = 20.0  # of a focal length in px
+MIN_DEPTH_M = 1e-6  # at which points behind a camera are taken to be seen
+DRAWS = 30  # starts of few pixels each, one of them surely without an outlier
+DRAWN = 16  # pixels of a start
+CONCENTRATIONS = 3
+REFINED = 3  # starts: of a scene that is nearly flat one alone can lead astray
+CUT = 6.0  # robust standard deviations of the misses, beyond which a pixel's point is an outlier
+FINE_PX = 1e-3  # and less than which no miss is one: rounding
+ROUNDS = 10
+MOST_OUTLIERS = 0.3  # of the pixels; a grid with more is not one camera's
+SEED = 20020309  # draws are fixed: equal points give equal cameras
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,71 +50,107 @@ class Resection:
         return points_m @ self.rotation.T + self.translation_m
 
 
-def calibrate(points_m: NDArray[np.float64]) -> Resection | None:
-    """Find the camera at the origin, looking along z, that saw points_m, (rows, cols, 3).
-
-    The lines u = fx X/Z + cx and v = fy Y/Z + cy through all pixels, by least squares; the
-    principal point is free. None where fewer than 12 pixels have a point, or no such camera can
-    have seen them.
-    """
-    rows, cols = points_m.shape[:2]
-    row, col, points = _sample(points_m)
-    if len(row) < MIN_PIXELS or np.any(points[:, 2] <= 0):
-        return None
-    across, down = (points[:, :2] / points[:, 2:]).T
-    if np.ptp(across) == 0 or np.ptp(down) == 0:
-        return None
-    (fx, cx), (fy, cy) = np.polyfit(across, col, 1), np.polyfit(down, row, 1)
-    if fx <= 0 or fy <= 0:
-        return None
-    misses = np.hypot(fx * across + cx - col, fy * down + cy - row)
-    return Resection(
-        camera=Camera(float(fx), float(fy), float(cx), float(cy), cols, rows),
-        rotation=np.eye(3),
-        translation_m=np.zeros(3),
-        residual_px=float(np.median(misses)),
-    )
-
-
 def resect(points_m: NDArray[np.float64]) -> Resection | None:
     """Find the camera that saw points_m, (rows, cols, 3), at its own grid of pixels.
 
-    The start is the direct linear transformation (Abdel-Aziz and Karara 1971); the camera with
-    square pixels nearest to it is then refined by least squares on the pixel residuals.
-    None where fewer than 12 pixels have a point or no camera explains the grid.
+    Starts are direct linear transformations (Abdel-Aziz and Karara 1971) of all pixels and of 30
+    draws of 16. Those with the least median misses (Rousseeuw 1984) are refined by least squares on
+    the pixel residuals of a camera with square pixels, again and again without the points that miss
+    their pixels by more than six robust standard deviations; the best is the camera.
+    None where fewer than 12 pixels have a point, three tenths of them miss or no camera explains
+    the grid.
     """
     rows, cols = points_m.shape[:2]
-    row, col, points = _sample(points_m)
+    row, col, points = sampled(points_m)
     if len(row) < MIN_PIXELS:
         return None
-    pixels = np.column_stack([col, row]).astype(np.float64)
     middle = np.array([(cols - 1) / 2, (rows - 1) / 2])
-
-    start = _direct_linear(pixels - middle, points)
-    if start is None:
+    pixels = np.column_stack([col, row]) - middle
+    found = [_refined(start, pixels, points) for start in _starts(pixels, points)]
+    fits = [each for each in found if each is not None]
+    if not fits:
         return None
-
-    def residuals(parameters: NDArray[np.float64]) -> NDArray[np.float64]:
-        camera_points = _pose(parameters, points)
-        depth = np.maximum(camera_points[:, 2], 1e-6)
-        seen = np.exp(parameters[6]) * camera_points[:, :2] / depth[:, None]
-        return np.asarray((seen - (pixels - middle)).ravel())
-
-    fit = least_squares(residuals, start, method="lm", x_scale="jac")
-    rotation = Rotation.from_rotvec(fit.x[:3]).as_matrix()
-    focal = float(np.exp(fit.x[6]))
-    if not np.isfinite(focal) or np.any(_pose(fit.x, points)[:, 2] <= 0):
-        return None
-    misses = np.linalg.norm(residuals(fit.x).reshape(-1, 2), axis=1)
+    best = min(fits, key=lambda each: float(np.median(_misses(each, pixels, points))))
+    focal = float(np.exp(best[6]))
     return Resection(
         camera=Camera(focal, focal, float(middle[0]), float(middle[1]), cols, rows),
-        rotation=rotation,
-        translation_m=fit.x[3:6],
-        residual_px=float(np.median(misses)),
+        rotation=Rotation.from_rotvec(best[:3]).as_matrix(),
+        translation_m=best[3:6],
+        residual_px=float(np.median(_misses(best, pixels, points))),
     )
 
 
-def _sample(
+def near(misses: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Pixels (n,) whose misses, px, are no outliers among them."""
+    return np.asarray(misses <= max(CUT * median_scale(misses), FINE_PX))
+
+
+def _starts(pixels: NDArray[np.float64], points: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+    """Parameters (7,) that all pixels and few of them determine, the best by their median miss.
+
+    Each is determined anew by the half of the pixels that miss least (concentration steps,
+    Rousseeuw and Van Driessen 2006).
+    """
+    rng = np.random.default_rng(SEED)
+    count = min(DRAWN, len(points))
+    draws = [np.arange(len(points))]
+    draws += [rng.choice(len(points), count, replace=False) for _ in range(DRAWS)]
+    found = [_concentrated(each, pixels, points) for each in draws]
+    fit = [each for each in found if each is not None]
+    return sorted(fit, key=lambda each: float(np.median(_misses(each, pixels, points))))[:REFINED]
+
+
+def _concentrated(
+    drawn: NDArray[np.intp], pixels: NDArray[np.float64], points: NDArray[np.float64]
+) -> NDArray[np.float64] | None:
+    best, kept = None, drawn
+    for _ in range(CONCENTRATIONS):
+        found = direct_linear(pixels[kept], points[kept])
+        if found is None or not (np.isfinite(found).all() and abs(found[6]) < MAX_LOG_FOCAL):
+            break
+        best = found
+        kept = np.argsort(_misses(best, pixels, points))[: max(MIN_PIXELS, len(points) // 2)]
+    return best
+
+
+def _refined(
+    start: NDArray[np.float64], pixels: NDArray[np.float64], points: NDArray[np.float64]
+) -> NDArray[np.float64] | None:
+    """Parameters by least squares without outliers; None where too many are, or none is seen."""
+    parameters, sound = start, np.zeros(len(points), dtype=np.bool_)
+    for _ in range(ROUNDS):
+        before, sound = sound, near(_misses(parameters, pixels, points))
+        if (sound == before).all():
+            break
+        parameters = _least_squares(parameters, pixels[sound], points[sound])
+    seen = abs(parameters[6]) < MAX_LOG_FOCAL and (_pose(parameters, points[sound])[:, 2] > 0).all()
+    return parameters if seen and sound.mean() >= 1 - MOST_OUTLIERS else None
+
+
+def _least_squares(
+    start: NDArray[np.float64], pixels: NDArray[np.float64], points: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    def residuals(parameters: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.asarray((_seen(parameters, points) - pixels).ravel())
+
+    return np.asarray(least_squares(residuals, start, method="lm", x_scale="jac").x)
+
+
+def _seen(parameters: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Pixel coordinates (n, 2) of points (n, 3), from the principal point."""
+    camera_points = _pose(parameters, points)
+    depth = np.maximum(camera_points[:, 2], MIN_DEPTH_M)
+    return np.asarray(np.exp(parameters[6]) * camera_points[:, :2] / depth[:, None])
+
+
+def _misses(
+    parameters: NDArray[np.float64], pixels: NDArray[np.float64], points: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Distances (n,), px, of pixels from where their points are seen."""
+    return np.asarray(np.linalg.norm(_seen(parameters, points) - pixels, axis=1))
+
+
+def sampled(
     points_m: NDArray[np.float64],
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
     """Rows, columns and points of pixels spread over those that have a point."""
@@ -115,42 +163,3 @@ def _sample(
 def _pose(parameters: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:
     moved: NDArray[np.float64] = Rotation.from_rotvec(parameters[:3]).apply(points)
     return moved + parameters[3:6]
-
-
-def _direct_linear(
-    pixels: NDArray[np.float64], points: NDArray[np.float64]
-) -> NDArray[np.float64] | None:
-    """Rotation vector, translation and log focal length from the 3x4 projection matrix."""
-    centre = points.mean(axis=0)
-    size = float(np.sqrt(((points - centre) ** 2).sum(axis=1).mean()))
-    scale = float(np.abs(pixels).max())
-    if size == 0 or scale == 0:
-        return None
-    world = np.column_stack([(points - centre) / size, np.ones(len(points))])
-    x, y = (pixels / scale).T
-    zero = np.zeros_like(world)
-    equations = np.vstack(
-        [
-            np.hstack([world, zero, -x[:, None] * world]),
-            np.hstack([zero, world, -y[:, None] * world]),
-        ]
-    )
-    values, vectors = np.linalg.eigh(equations.T @ equations)
-    if not np.isfinite(values).all():
-        return None
-    projection = vectors[:, 0].reshape(3, 4)
-    if np.median(world @ projection[2]) < 0:
-        projection = -projection
-    try:
-        calibration, rotation, *_ = cv2.RQDecomp3x3(projection[:, :3])[1:3]
-    except cv2.error:
-        return None
-    calibration, rotation = np.asarray(calibration), np.asarray(rotation)
-    signs = np.diag(np.sign(np.diag(calibration)))
-    calibration, rotation = calibration @ signs, signs @ rotation
-    if np.linalg.det(rotation) < 0 or np.linalg.matrix_rank(calibration) < 3:
-        return None
-    translation = np.linalg.solve(calibration, projection[:, 3]) * size - rotation @ centre
-    focal = float(np.sqrt(abs(np.linalg.det(calibration[:2, :2])))) / calibration[2, 2] * scale
-    vector = Rotation.from_matrix(rotation).as_rotvec()
-    return np.concatenate([vector, translation, [np.log(focal)]])

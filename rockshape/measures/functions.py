@@ -172,7 +172,7 @@ def _solid(
 
 def _calibrated(grid_m: NDArray[np.float64]) -> Camera | None:
     """Camera at the origin that saw a grid of points; None where none explains it."""
-    from rockshape.camera.resection import calibrate  # noqa: PLC0415 - brings scipy.optimize
+    from rockshape.camera.calibration import calibrate  # noqa: PLC0415 - brings scipy.optimize
 
     found = calibrate(grid_m)
     return None if found is None or found.residual_px > SURE_RESIDUAL_PX else found.camera

@@ -5,27 +5,26 @@ hold the bytes of an undisturbed run, but for times; a file that was there befor
 """
 
 import argparse
-import resource
 import shutil
-import signal
-import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from functools import partial
+from itertools import product
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from tests.hostile.cases import SUITE, usual_files
+from tests.hostile.disturbances import WAYS, Run, Way, can_mount, start
 
 SPEC = (
     'scenes = 2\nrenderer = "embree"\n[rocks]\ncount = 2\nseries = "random"\n'
     'family = "rounded-box"\n[camera]\npreset = "imp"\nsupersample = 1\n[views]\ncount = 1\n'
 )
 TIMED = ("index.html", "junit.xml")  # tell how long the run took
-SMALLEST_FILE_BYTES = 512
 
 
 class Command(NamedTuple):
@@ -64,20 +63,6 @@ def inputs(folder: Path) -> Path:
     return folder
 
 
-def _start(argv: list[str], file_bytes: int | None = None) -> "subprocess.Popen[str]":
-    def limit() -> None:
-        if file_bytes is not None:
-            resource.setrlimit(resource.RLIMIT_FSIZE, (file_bytes, file_bytes))
-
-    return subprocess.Popen(
-        [sys.executable, "-m", "rockshape.cli", *argv],
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        text=True,
-        preexec_fn=limit,  # noqa: PLW1509 - no threads here
-    )
-
-
 def _content(out: Path) -> dict[str, bytes]:
     found = {path.relative_to(out).as_posix(): path for path in out.rglob("*") if path.is_file()}
     return {
@@ -87,78 +72,84 @@ def _content(out: Path) -> dict[str, bytes]:
     }
 
 
-def _prepared(name: str, folder: Path, index: int) -> Path:
-    out = folder / f"{name}{index}"
+def _prepare(name: str, out: Path) -> None:
+    """Old outputs, where there are some before a run."""
     if name == "measure":
         out.mkdir()
         for file in ("out.csv", "found.png", "over.png", "page.html"):
             (out / file).write_bytes(b"old")
-    return out
 
 
-def disturbed(name: str, *, times: int, seed: int, folder: Path, given: Path) -> list[str]:
-    """Run a command, then as often disturbed by a SIGKILL and by a full disk; what went wrong."""
+def disturbed(
+    name: str, way: Way, *, times: int, seed: int, folder: Path, given: Path
+) -> Iterator[str]:
+    """Run a command, then so often disturbed in one way and resumed; what went wrong."""
     command, rng = COMMANDS[name], np.random.default_rng(seed)
-    calm = _prepared(name, folder, 0)
+    calm = folder / f"{name} calm"
+    _prepare(name, calm)
     began = time.monotonic()
-    run = _start(command.argv(given, calm))
-    if run.communicate()[1].count("Traceback") or run.returncode != 0:
-        return [f"{name}: expected an undisturbed run, found status {run.returncode}"]
+    first = start(command.argv(given, calm))
+    if first.communicate()[1].count("Traceback") or first.returncode != 0:
+        yield f"expected an undisturbed run, found status {first.returncode}"
+        return
     took, whole = time.monotonic() - began, _content(calm)
-    largest = max(len(data) for data in whole.values())
-    wrong = []
-    for index in range(1, 2 * times + 1):
-        out = _prepared(name, folder, index)
+    sizes = [path.stat().st_size for path in calm.rglob("*") if path.is_file()]
+    for index in range(times):
+        place = folder / f"{name} {index}"
+        place.mkdir()
+        out = place / "out"
         argv = command.argv(given, out)
-        if index % 2:
-            what = f"killed after {rng.uniform(0.02, 1.0) * took:.2f} s"
-            run = _start(argv)
-            try:
-                run.communicate(timeout=float(what.split()[2]))
-            except subprocess.TimeoutExpired:
-                run.send_signal(signal.SIGKILL)
-                run.communicate()
-        else:
-            limit = int(rng.integers(SMALLEST_FILE_BYTES, largest))
-            what = f"files of at most {limit} bytes"
-            run = _start(argv, limit)
-            said = run.communicate()[1]
-            if "Traceback" in said or run.returncode not in (0, 2, 3):
-                wrong.append(f"{name}: {what}: status {run.returncode}: {said[-300:]}")
-        kept = _content(out) if out.exists() else {}
-        for file, data in kept.items():
-            if name == "measure" and data not in (b"old", whole[file]):
-                wrong.append(f"{name}: {what}: expected {file} old or whole, found a part")
-        second = _start([*argv, *command.resume])
-        said = second.communicate()[1]
-        if second.returncode != 0:
-            wrong.append(f"{name}: {what}: resumed with status {second.returncode}: {said[-300:]}")
-        elif _content(out) != whole:
-            wrong.append(f"{name}: {what}: expected the bytes of an undisturbed run, found others")
-        shutil.rmtree(out, ignore_errors=True)
-    return wrong
+        run = Run(argv, place, partial(_prepare, name, out), took, sizes)
+        with way(run, rng) as done:
+            found = [done.wrong, *_partial(name, out, whole), _resumed(command, argv, out, whole)]
+        yield from (f"{done.what}: {each}" for each in found if each)
+        shutil.rmtree(place)
+    shutil.rmtree(calm)
+
+
+def _partial(name: str, out: Path, whole: dict[str, bytes]) -> Iterator[str]:
+    """Old outputs that are neither old nor whole."""
+    if name == "measure":
+        found = _content(out)
+        for file, data in whole.items():
+            if found.get(file) not in (b"old", data):
+                yield f"expected {file} old or whole, found another"
+
+
+def _resumed(command: Command, argv: list[str], out: Path, whole: dict[str, bytes]) -> str:
+    """What is wrong with a run that is started again."""
+    second = start([*argv, *command.resume])
+    said = second.communicate()[1]
+    if second.returncode != 0:
+        return f"resumed with status {second.returncode}: {said[-300:]!r}"
+    return "" if _content(out) == whole else "expected the bytes of an undisturbed run"
 
 
 def main() -> int:
-    """Disturb each command; 1 where something went wrong."""
+    """Disturb each command in each way; 1 where something went wrong."""
     parser = argparse.ArgumentParser(prog="python -m tests.hostile.kill")
-    parser.add_argument("--times", type=int, default=20, help="of each kind and command")
+    parser.add_argument("--times", type=int, default=20, help="of each way and command")
     parser.add_argument("--seed", type=int, default=0)
     args = parser.parse_args()
-    wrong: list[str] = []
+    failed = False
     with tempfile.TemporaryDirectory() as folder:
         given = Path(folder) / "given"
         given.mkdir()
         inputs(given)
-        for name in COMMANDS:
-            found = disturbed(
-                name, times=args.times, seed=args.seed, folder=Path(folder), given=given
+        ways = dict(WAYS)
+        if not can_mount(given):
+            print("full disks: left out, for no filesystem can be mounted here")
+            del ways["full disks"]
+        for name, (told, way) in product(COMMANDS, ways.items()):
+            found = list(
+                disturbed(
+                    name, way, times=args.times, seed=args.seed, folder=Path(folder), given=given
+                )
             )
-            told = f"{len(found)} wrong" if found else "all resumed to the undisturbed bytes"
-            print(f"{name}: {args.times} SIGKILLs and {args.times} full disks: {told}", flush=True)
-            wrong += found
-    print("\n".join(wrong))
-    return int(bool(wrong))
+            end = f"{len(found)} wrong" if found else "all resumed to the undisturbed bytes"
+            print("\n".join([f"{name}: {args.times} {told}: {end}", *found]), flush=True)
+            failed |= bool(found)
+    return int(failed)
 
 
 if __name__ == "__main__":

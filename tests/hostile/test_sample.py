@@ -15,6 +15,7 @@ from rockshape.io import read_image, read_range
 from rockshape.io.guard import guard
 from tests.hostile import fuzz, kill, scene, soak
 from tests.hostile.cases import SHARES, SIZE, cases
+from tests.hostile.disturbances import WAYS, can_mount
 from tests.hostile.judge import Bench
 from tests.hostile.seeds import readable_formats, seeds, seeds_of
 
@@ -93,11 +94,15 @@ def test_what_takes_too_long_is_told_though_its_alarm_is_swallowed(monkeypatch) 
 
 
 @pytest.mark.parametrize("name", kill.COMMANDS)
-def test_a_disturbed_run_is_resumed_to_the_undisturbed_bytes(name, tmp_path) -> None:
+@pytest.mark.parametrize("told", WAYS)
+def test_a_disturbed_run_is_resumed_to_the_undisturbed_bytes(told, name, tmp_path) -> None:
     given_files = tmp_path / "given"
     given_files.mkdir()
+    if told == "full disks" and not can_mount(given_files):
+        pytest.skip("no filesystem can be mounted here")
     kill.inputs(given_files)
-    assert kill.disturbed(name, times=1, seed=3, folder=tmp_path, given=given_files) == []
+    found = kill.disturbed(name, WAYS[told], times=1, seed=3, folder=tmp_path, given=given_files)
+    assert list(found) == []
 
 
 def test_frames_leave_nothing_behind() -> None:

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from rockshape.camera.calibration import calibrate
 from rockshape.camera.camera import Camera
 from rockshape.camera.resection import resect
 from rockshape.errors import InputError
@@ -119,3 +120,44 @@ def test_shapes_must_fit(image_shape: tuple, points_shape: tuple, camera: object
             points_m=np.zeros(points_shape),
             camera=camera,
         )
+
+
+def spoiled(points: np.ndarray, share: float, kind: str, rng: np.random.Generator) -> np.ndarray:
+    """A grid with a share of its points moved by metres."""
+    points = points.copy()
+    known = np.argwhere(np.isfinite(points[..., 0]))
+    row, col = known[rng.choice(len(known), round(share * len(known)), replace=False)].T
+    moved = {
+        "anywhere": lambda: points[row, col] + rng.uniform(-5, 5, (len(row), 3)),
+        "one way": lambda: points[row, col] + [3.0, -1.0, 2.0],
+        "one place": lambda: np.array([7.0, 1.0, -2.0]),
+        "behind": lambda: -points[row, col],
+    }
+    points[row, col] = moved[kind]()
+    return points
+
+
+@pytest.mark.parametrize("share", [0.02, 0.1])
+@pytest.mark.parametrize("kind", ["anywhere", "one way", "one place", "behind"])
+@pytest.mark.parametrize("noise_m", [0.0, 0.003])
+def test_points_spoiled_by_metres_do_not_move_the_camera(
+    share: float, kind: str, noise_m: float, rng: np.random.Generator
+) -> None:
+    points = scene() + rng.normal(0, noise_m, scene().shape)
+    clean = resect(points)
+    found = resect(spoiled(points, share, kind, rng))
+    assert clean is not None
+    assert found is not None
+    assert found.residual_px < 1
+    most_m = 1e-3 if share == 0.02 or noise_m == 0 else 5e-3  # fewer noisy points: another camera
+    assert np.linalg.norm(found.centre_m - clean.centre_m) < most_m
+    assert noise_m > 0 or np.linalg.norm(found.centre_m) < 1e-3
+
+
+@pytest.mark.parametrize("kind", ["anywhere", "one way", "behind"])
+def test_nor_that_of_a_grid_in_its_own_frame(kind: str, rng: np.random.Generator) -> None:
+    found = calibrate(spoiled(scene(), 0.02, kind, rng))
+    assert found is not None
+    assert found.residual_px < 1e-6
+    assert found.camera.fx == pytest.approx(solids.CAMERA.fx)
+    assert found.camera.cy == pytest.approx(solids.CAMERA.cy)

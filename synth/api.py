@@ -29,8 +29,8 @@ def make_scene(
     has its default. `index` is the scene's number in a dataset of several. The options are laid
     over the specification: `seed`, `scenes`, `renderer`; `rocks` (count), `family` and `series` of
     the rocks, `views` (count), `camera` (preset), `noise` (sensor), `population` (kind); each of
-    these, and `ground`, `surface`, `sun`, `sensor`, `dataset` and `truth`, may also be a dict with
-    keys of its table.
+    these, and `ground`, `surface`, `sun`, `sensor`, `calibration`, `dataset` and `truth`, may also
+    be a dict with keys of its table.
 
     Raises:
         SpecError: an unknown option, key or value, named with the one that was probably meant.

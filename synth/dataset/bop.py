@@ -9,7 +9,7 @@ from scipy.spatial import ConvexHull
 from scipy.spatial.distance import cdist
 
 from synth.arrays import Floats
-from synth.camera.camera import RenderCamera
+from synth.camera.camera import Pose, RenderCamera
 from synth.dataset.bop_canvas import Beyond, Canvas, Window, united
 from synth.geometry.mesh import Mesh
 from synth.render.view import Sight
@@ -36,16 +36,16 @@ def camera_table(camera: RenderCamera, depth_scale: float) -> Table:
     }
 
 
-def scene_camera(scene: SceneModel, depth_scale: float) -> Table:
+def scene_camera(camera: RenderCamera, poses: Sequence[Pose], depth_scale: float) -> Table:
     """Table of scene_camera.json: each view's K and pose, millimetres."""
     return {
         str(view): {
-            "cam_K": scene.camera.matrix().ravel(),
+            "cam_K": camera.matrix().ravel(),
             "depth_scale": depth_scale,
             "cam_R_w2c": pose.world_to_camera.ravel(),
             "cam_t_w2c": 1000.0 * pose.translation_m,
         }
-        for view, pose in enumerate(scene.poses)
+        for view, pose in enumerate(poses)
     }
 
 

@@ -11,6 +11,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from synth.camera.calibration import calibrated, reported_camera, reported_pose
 from synth.camera.trajectories import camera_of
 from synth.dataset import bop
 from synth.dataset.contact_sheet import MAX_SCENES, sheet_row, write_contact_sheet
@@ -31,6 +32,7 @@ from synth.dataset.layout import (
     scene_number,
     scene_path,
 )
+from synth.dataset.range_files import RANGE_FOLDER, hole_table, hole_value, write_range
 from synth.dataset.shape_truth import scene_gt_shape
 from synth.dataset.splits import write_splits
 from synth.dataset.workers import begin_scene
@@ -63,7 +65,8 @@ def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -
     scale_mm = depth_scale_mm(spec)
     folder = out / PARTIAL / f"{scene_number(index)}.{os.getpid()}"
     shutil.rmtree(folder, ignore_errors=True)
-    for name in (*sensor.folders(), "labels", "mask", "mask_visib", "models"):
+    ranges = () if hole_value(spec) is None else (RANGE_FOLDER,)
+    for name in (*sensor.folders(), *ranges, "labels", "mask", "mask_visib", "models"):
         (folder / name).mkdir(parents=True)
     views: list[Sight] = []
     valid = []
@@ -73,6 +76,7 @@ def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -
         )
         depth = encode_depth(capture.depth_m, scale_mm)
         _write_pictures(folder, number, capture, depth)
+        write_range(folder, number, capture.depth_m, hole_value(spec))
         if not sensor.exact_range:
             exact = encode_depth(view.depth_m, scale_mm)
             write_png(folder / "depth_true" / f"{number:06d}.png", exact)
@@ -86,7 +90,7 @@ def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -
         for placed, origin_m in zip(scene.rocks, origins_m, strict=True)
     ]
     tables = {
-        "camera": bop.scene_camera(scene, scale_mm),
+        **_camera_tables(spec, index, scene, scale_mm),
         "gt": bop.scene_gt(scene, first_id, origins_m),
         "gt_info": bop.scene_gt_info(scene, views, valid),
         "gt_coco": bop.scene_gt_coco(scene, index, first_id, views),
@@ -127,6 +131,20 @@ def capture_frame(
     return view, capture
 
 
+def _camera_tables(
+    spec: SceneSpec, index: int, scene: SceneModel, scale_mm: float
+) -> dict[str, bop.Table]:
+    """Tables of the cameras as reported and, where that is not exact, as they are."""
+    reported = [
+        reported_pose(spec, pose, scene=index, view=view) for view, pose in enumerate(scene.poses)
+    ]
+    camera = reported_camera(spec, scene.camera)
+    tables = {"camera": bop.scene_camera(camera, reported, scale_mm)}
+    if calibrated(spec):
+        tables["gt_camera"] = bop.scene_camera(scene.camera, scene.poses, scale_mm)
+    return tables
+
+
 def write_common(
     spec: SceneSpec, backend: RendererName, out: Path, pool: Executor | None = None
 ) -> None:
@@ -137,7 +155,10 @@ def write_common(
     scenes = [out / scene_path(spec, index) for index in range(min(spec.scenes, MAX_SCENES))]
     rows = (map if pool is None else pool.map)(sheet_row, scenes)
     camera = camera_of(spec.camera)
-    write_json(out / "camera.json", bop.camera_table(camera, depth_scale_mm(spec)))
+    reported, scale_mm = reported_camera(spec, camera), depth_scale_mm(spec)
+    write_json(out / "camera.json", {**bop.camera_table(reported, scale_mm), **hole_table(spec)})
+    if calibrated(spec):
+        write_json(out / "camera_gt.json", bop.camera_table(camera, scale_mm))
     models: dict[str, Any] = {}
     for index in range(spec.scenes):
         for rock in read_json(out / scene_path(spec, index) / "scene_gt_shape.json")["rocks"]:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from synth.arrays import DepthImage, Image, LabelImage
+from synth.camera.calibration import reported_pose
 from synth.camera.camera import Pose
 from synth.dataset.depth import decode_depth, depth_scale_mm, encode_depth
 from synth.dataset.files import plain
@@ -40,7 +41,8 @@ class ViewParts:
     exact_depth_m: DepthImage
     labels: LabelImage
     pictures: Mapping[str, Image]
-    pose: Pose
+    pose: Pose  # as reported
+    exact_pose: Pose
     rocks: Rows  # as in scene_gt_shape.json
     visible: Rows
 
@@ -80,7 +82,8 @@ def render(spec: SceneSpec, index: int, number: int, model: bytes) -> ViewParts:
         exact_depth_m=decode_depth(encode_depth(view.depth_m, scale_mm), scale_mm),
         labels=view.labels,
         pictures=capture.pictures,
-        pose=scene.poses[number],
+        pose=reported_pose(spec, scene.poses[number], scene=index, view=number),
+        exact_pose=scene.poses[number],
         rocks=truth["rocks"],
         visible=truth["views"]["0"],
     )

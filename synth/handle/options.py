@@ -41,6 +41,7 @@ class SceneOptions(TypedDict, total=False):
     surface: Table
     sun: Table
     sensor: Table
+    calibration: Table
     dataset: Table
     truth: Table
 

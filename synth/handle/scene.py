@@ -5,6 +5,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from synth.camera.calibration import reported_camera
 from synth.camera.camera import RenderCamera
 from synth.camera.trajectories import camera_of
 from synth.errors import SpecError
@@ -47,12 +48,12 @@ class Scene:
 
     @cached_property
     def camera(self) -> RenderCamera:
-        """The camera of every view.
+        """The camera of every view, with errors of calibration where the spec has them.
 
         Raises:
             SpecError: the lens folds the image inside the frame.
         """
-        return camera_of(self.spec.camera)
+        return reported_camera(self.spec, camera_of(self.spec.camera))
 
     @cached_property
     def truth(self) -> "pd.DataFrame":
@@ -72,8 +73,8 @@ class Scene:
     ) -> View:
         """View number `view`, as the sensor captures it.
 
-        `noise` names another sensor than the specification's (`none`, `stereo`, `sgm` or one that
-        is registered) or is a table with keys of [noise].
+        `noise` names another sensor than the specification's (`none`, `stereo`, `sgm`, `mesh`,
+        `tof`, `lidar` or one that is registered) or is a table with keys of [noise].
 
         Raises:
             SpecError: no such view or sensor, or the rocks do not fit on the ground.
@@ -93,6 +94,8 @@ class Scene:
             labels=parts.labels,
             camera=self.camera,
             pose=parts.pose,
+            exact_camera=camera_of(self.spec.camera),
+            exact_pose=parts.exact_pose,
             truth=truth_table(parts.rocks, parts.visible),
             pictures=parts.pictures,
             number=view,

@@ -23,8 +23,10 @@ class View:
     depth_m: DepthImage  # (rows, cols), as measured; NaN in holes
     exact_depth_m: DepthImage  # (rows, cols), without the sensor's errors
     labels: LabelImage  # (rows, cols), the value of a rock's `id` in `truth`, 0 elsewhere
-    camera: RenderCamera
-    pose: Pose
+    camera: RenderCamera  # as reported: with the errors of calibration, if the spec has them
+    pose: Pose  # likewise
+    exact_camera: RenderCamera
+    exact_pose: Pose
     truth: "pd.DataFrame"  # one row a rock
     pictures: Mapping[str, Image]  # further images of the sensor, by name
     number: int  # of the view in its scene

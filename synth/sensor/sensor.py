@@ -19,7 +19,16 @@ from synth.spec import SceneSpec
 from synth.spec.sensor import SENSORS
 
 # Folders of a scene that every dataset has; a sensor's own have other names.
-COMMON_FOLDERS = ("gray", "depth", "depth_true", "labels", "mask", "mask_visib", "models")
+COMMON_FOLDERS = (
+    "gray",
+    "depth",
+    "depth_true",
+    "range",
+    "labels",
+    "mask",
+    "mask_visib",
+    "models",
+)
 
 
 @dataclass(frozen=True, eq=False)

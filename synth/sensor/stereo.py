@@ -5,12 +5,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synth.arrays import Floats
+from synth.sensor.fattening import fattened_px
 from synth.sensor.occlusion import contrast, half_occluded
 from synth.sensor.rectify import Rectification, rectification_of
 from synth.sensor.rig import Rig, rig_of
 from synth.sensor.seeds import Use
 from synth.sensor.sensor import Capture, Sensor, SensorInput
-from synth.spec.sensor import NoiseSpec
+from synth.spec.sensor import NoiseSpec, fattening_px
 
 _RIM_PX = 2  # the pull is the mean over a window this much smaller: its rim counts less
 
@@ -32,10 +33,11 @@ def modelled_depth_m(
     `light` as exposed: the part of the error that the pictures' noise makes goes as 1/c (Förstner
     1982). A is the pull towards whole disparities that a parabola through costs has (Shimizu and
     Okutomi 2001), a mean over the window's middle. Holes are where one eye alone sees the surface
-    and where c is below the least that can be matched. `lens` is the straightening of the eyes'
-    lens, if they have one.
+    and where c is below the least that can be matched. Where windows bleed, all this is said of
+    surfaces whose edges lie as far outside. `lens` is the straightening of the eyes' lens, if they
+    have one.
     """
-    exact_px = rig.disparity_px(depth_m)
+    exact_px = fattened_px(rig.disparity_px(depth_m), fattening_px(noise))
     texture = contrast(light, noise.window_px)
     sigma_px = noise.disparity_px * np.hypot(1.0, noise.weak_texture / np.maximum(texture, 1e-3))
     found_px = exact_px + sigma_px * even_noise(depth_m.shape, noise.window_px, rng=rng)
@@ -75,8 +77,9 @@ def even_noise(shape: tuple[int, ...], window_px: int, *, rng: np.random.Generat
     return np.asarray(total[half : half + shape[0], half : half + shape[1]] / window_px)
 
 
-def _capture(shot: SensorInput) -> Capture:
-    depth_m = modelled_depth_m(
+def stereo_depth_m(shot: SensorInput) -> Floats:
+    """Z-depth of a view, (rows, cols), by the error model of its preset's stereo camera."""
+    return modelled_depth_m(
         shot.view.depth_m,
         shot.spec.sensor.exposure * shot.view.light,
         rig_of(shot.spec.camera.preset),
@@ -84,7 +87,10 @@ def _capture(shot: SensorInput) -> Capture:
         rng=shot.random(Use.DISPARITY),
         lens=None if shot.camera.distortion is None else rectification_of(shot.camera),
     )
-    return Capture(picture=shot.picture, depth_m=depth_m)
+
+
+def _capture(shot: SensorInput) -> Capture:
+    return Capture(picture=shot.picture, depth_m=stereo_depth_m(shot))
 
 
 STEREO = Sensor("stereo", "the error model of a stereo camera", _capture, needs_baseline=True)

@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 
 from msgspec import UNSET, Meta, Struct, UnsetType
 
+from synth.spec.calibration import CalibrationSpec
 from synth.spec.convert import convert_table
 from synth.spec.dataset import DatasetSpec
 from synth.spec.ground import GroundSpec
@@ -36,8 +37,10 @@ class SceneSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     sun: SunSpec = SunSpec()
     noise: NoiseSpec = NoiseSpec()
     sensor: SensorSpec = SensorSpec()
-    dataset: DatasetSpec | UnsetType = UNSET  # not written to manifests unless it is given
-    truth: TruthSpec | UnsetType = UNSET  # likewise
+    # not written to manifests unless they are given:
+    calibration: CalibrationSpec | UnsetType = UNSET
+    dataset: DatasetSpec | UnsetType = UNSET
+    truth: TruthSpec | UnsetType = UNSET
 
     def __post_init__(self) -> None:
         """Reject counted rocks on a pan: none could lie in every view."""

@@ -2,9 +2,10 @@
 
 from typing import Annotated, Literal
 
-from msgspec import Meta, Struct
+from msgspec import UNSET, Meta, Struct, UnsetType
 
 LayoutName = Literal["scenes", "bop"]
+HoleValue = Literal["0", "65535", "-9999", "inf", "nan"]
 
 
 class DatasetSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -13,6 +14,9 @@ class DatasetSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True)
     layout: LayoutName = "scenes"  # bop: split folders, shared rocks, models centred on their boxes
     split: Annotated[float, Meta(gt=0, lt=1)] | None = None  # share of the scenes for training
     yolo: bool = False  # also images and label files as YOLO reads them; needs a split
+    # Also range in metres, with this number where nothing was measured; not written to manifests
+    # unless it is given.
+    hole_value: HoleValue | UnsetType = UNSET
 
     def __post_init__(self) -> None:
         """Require a split for YOLO, whose data.yaml names a training and a validation set."""

@@ -5,6 +5,7 @@ from typing import Annotated, Any, Literal
 from msgspec import UNSET, Meta, Struct, UnsetType
 
 from synth.errors import SpecError
+from synth.spec.limits import Fraction
 from synth.spec.registry import Record, Registry, options_of
 
 SENSORS: Registry[Record] = Registry(
@@ -14,6 +15,9 @@ SENSORS: Registry[Record] = Registry(
         "none": "synth.sensor.exact:EXACT",
         "stereo": "synth.sensor.stereo:STEREO",
         "sgm": "synth.sensor.sgm:SGM",
+        "mesh": "synth.sensor.stereo_mesh:MESH",
+        "tof": "synth.sensor.tof:TOF",
+        "lidar": "synth.sensor.lidar:LIDAR",
     },
 )
 GreyLevels = Annotated[float, Meta(ge=0, le=255)]  # of 255
@@ -21,11 +25,12 @@ OddWindow = Annotated[int, Meta(ge=3, le=31)]
 
 
 class NoiseSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """Range sensor: exact, a stereo camera's error model, matched images, or a registered sensor.
+    """Range sensor: one of the package, by its name, or a registered one.
 
     The default of `disparity_px` is the error that Kim et al. (2005) measured on targets with a
     rover's cameras: matching, vertical misalignment and calibration together. docs/dataset.md has
-    the values for images as they are rendered here. `options` are a registered sensor's own.
+    the values for images as they are rendered here. `options` are a sensor's own; what is
+    `stereo`'s alone goes for `mesh` too, which is made of its points.
     """
 
     kind: str = "none"
@@ -35,7 +40,9 @@ class NoiseSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     window_px: OddWindow = 7  # side of the matching window, odd
     step_px: Annotated[float, Meta(ge=0, le=1)] = 0.0625  # disparity's steps, `stereo`; 0: none
     min_texture: GreyLevels = 1.0  # least contrast, `stereo`
-    options: dict[str, Any] | UnsetType = UNSET  # not written to manifests unless it is given
+    # not written to manifests unless they are given:
+    fattening: Fraction | UnsetType = UNSET  # edges move out so much of half a window, `stereo`
+    options: dict[str, Any] | UnsetType = UNSET
 
     def __post_init__(self) -> None:
         """Require a known sensor with options that it has, and a window with a middle pixel."""
@@ -47,6 +54,12 @@ class NoiseSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
             options_of("sensor", sensor, self.options)
         if self.window_px % 2 == 0:
             raise ValueError(f"window_px: expected an odd number, found {self.window_px}")
+
+
+def fattening_px(noise: NoiseSpec) -> int:
+    """Pixels by which windows that bleed move depth edges out of the nearer surface."""
+    share = 0.0 if isinstance(noise.fattening, UnsetType) else noise.fattening
+    return round(share * (noise.window_px // 2))
 
 
 class SensorSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):

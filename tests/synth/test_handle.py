@@ -20,7 +20,7 @@ from synth.dataset.generate import generate_dataset
 from synth.handle.client import call_in_worker
 from synth.handle.jobs import render
 from synth.render import backends
-from tests.synth.plugins.lidar import LIDAR
+from tests.synth.plugins.scanner import SCANNER
 
 SPEC = {
     "seed": 5,
@@ -155,8 +155,8 @@ def test_a_module_of_the_callers_folder_does_not_shadow_the_workers(tmp_path):
 
 
 def test_a_registered_sensor_is_known_to_the_worker(scene):
-    synth.register_sensor(LIDAR)
-    view = scene.render(0, noise={"kind": "lidar", "options": {"rows_apart": 16}})
+    synth.register_sensor(SCANNER)
+    view = scene.render(0, noise={"kind": "scanner", "options": {"rows_apart": 16}})
     assert np.isnan(view.depth_m[1:16]).all()
     assert np.isfinite(view.depth_m[::16]).any()
     assert view.pictures["intensity"].shape == view.image.shape

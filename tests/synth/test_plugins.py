@@ -18,21 +18,21 @@ from synth.sensor import Capture, Sensor, SensorInput, register_sensor
 from synth.spec import convert_spec
 from synth.spec.rocks import RocksSpec
 from tests.synth.plugins.bricks import BRICK
-from tests.synth.plugins.lidar import LIDAR
+from tests.synth.plugins.scanner import SCANNER
 
-LIDAR_SCENE = {
+SCANNER_SCENE = {
     "seed": 3,
     "rocks": {"count": 2},
     "camera": {"preset": "imp"},
     "views": {"count": 1},
-    "noise": {"kind": "lidar", "options": {"rows_apart": 8, "sd_m": 0.002}},
+    "noise": {"kind": "scanner", "options": {"rows_apart": 8, "sd_m": 0.002}},
 }
 
 
 @pytest.fixture(autouse=True)
 def registered(no_registered_records):  # noqa: ARG001 (runs before)
     """Both records."""
-    register_sensor(LIDAR)
+    register_sensor(SCANNER)
     register_family(BRICK)
 
 
@@ -40,7 +40,7 @@ def read(path: Path) -> np.ndarray:
     return cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
 
 
-def check_lidar_dataset(out: Path, *, rows_apart: int, sd_m: float) -> None:
+def check_scanner_dataset(out: Path, *, rows_apart: int, sd_m: float) -> None:
     """The dataset's depth is the exact one at scanned rows, but for the sensor's noise."""
     scale_m = json.loads((out / "camera.json").read_text())["depth_scale"] / 1000
     depth, exact, intensity, gray = (
@@ -60,9 +60,9 @@ def check_lidar_dataset(out: Path, *, rows_apart: int, sd_m: float) -> None:
 
 
 def test_a_registered_sensor_makes_a_dataset(tmp_path):
-    spec = convert_spec(LIDAR_SCENE, where="test")
+    spec = convert_spec(SCANNER_SCENE, where="test")
     generate_dataset(spec, tmp_path / "out")
-    check_lidar_dataset(tmp_path / "out", rows_apart=8, sd_m=0.002)
+    check_scanner_dataset(tmp_path / "out", rows_apart=8, sd_m=0.002)
     manifest = json.loads((tmp_path / "out" / "manifest.json").read_text())
     assert convert_spec(manifest["spec"], where="manifest") == spec
 
@@ -92,7 +92,7 @@ def test_relief_is_laid_on_a_family_from_outside():
 def distribution(folder: Path) -> None:
     """Write a distribution with both modules and their entry points into a folder."""
     source = Path(__file__).parent / "plugins"
-    for name in ("lidar", "bricks"):
+    for name in ("scanner", "bricks"):
         text = (source / f"{name}.py").read_text()
         # An installed plug-in leaves registering to its entry point.
         text = text.replace("register_sensor(", "(").replace("register_family(", "(")
@@ -102,7 +102,8 @@ def distribution(folder: Path) -> None:
     info.mkdir()
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: guest\nVersion: 1.0\n")
     (info / "entry_points.txt").write_text(
-        "[synth.sensors]\nlidar = guest_lidar:LIDAR\n[synth.families]\nbrick = guest_bricks:BRICK\n"
+        "[synth.sensors]\nscanner = guest_scanner:SCANNER\n"
+        "[synth.families]\nbrick = guest_bricks:BRICK\n"
     )
 
 
@@ -110,7 +111,7 @@ def test_entry_points_add_a_sensor_and_a_family(tmp_path):
     distribution(tmp_path)
     (tmp_path / "spec.toml").write_text(
         '[rocks]\ncount = 2\nfamily = "brick"\nseries = "random"\n'
-        '[camera]\npreset = "imp"\n[views]\ncount = 1\n[noise]\nkind = "lidar"\n'
+        '[camera]\npreset = "imp"\n[views]\ncount = 1\n[noise]\nkind = "scanner"\n'
         "[noise.options]\nrows_apart = 2\n"
     )
     command = [sys.executable, "-m", "rockshape.cli", "synth", "scene", "out", "--spec"]
@@ -123,7 +124,7 @@ def test_entry_points_add_a_sensor_and_a_family(tmp_path):
         check=False,
     )
     assert done.returncode == 0, done.stderr
-    check_lidar_dataset(tmp_path / "out", rows_apart=2, sd_m=0.01)
+    check_scanner_dataset(tmp_path / "out", rows_apart=2, sd_m=0.01)
     rocks = json.loads((tmp_path / "out" / "000000" / "scene_gt_shape.json").read_text())["rocks"]
     assert {rock["family"] for rock in rocks} == {"brick"}
 
@@ -133,27 +134,27 @@ def test_a_module_of_the_current_folder_registers_on_the_command_line(
 ):
     monkeypatch.chdir(tmp_path)
     options = ["--rocks", "2", "--views", "1", "--camera", "imp"]
-    command = ["synth", "scene", "out", *options, "--noise", "lidar"]
+    command = ["synth", "scene", "out", *options, "--noise", "scanner"]
     assert main([*command, "--plugin", "absent_module"]) == 2
     assert "--plugin: expected a module" in capsys.readouterr().err
-    assert main([*command, "--plugin", "tests.synth.plugins.lidar"]) == 0
-    check_lidar_dataset(tmp_path / "out", rows_apart=4, sd_m=0.01)
+    assert main([*command, "--plugin", "tests.synth.plugins.scanner"]) == 0
+    check_scanner_dataset(tmp_path / "out", rows_apart=4, sd_m=0.01)
 
 
 @pytest.mark.parametrize(
     ("table", "words"),
     [
         (
-            {"noise": {"kind": "ldiar"}},
-            "noise.kind: expected one of none, stereo, sgm, lidar, found 'ldiar'; "
-            "did you mean 'lidar'?",
+            {"noise": {"kind": "scaner"}},
+            "noise.kind: expected one of none, stereo, sgm, mesh, tof, lidar, scanner, "
+            "found 'scaner'; did you mean 'scanner'?",
         ),
         (
-            {"noise": {"kind": "lidar", "options": {"row_apart": 2}}},
+            {"noise": {"kind": "scanner", "options": {"row_apart": 2}}},
             "noise.options: unknown key 'row_apart'; did you mean 'rows_apart'?",
         ),
         (
-            {"noise": {"kind": "lidar", "options": {"sd_m": "a"}}},
+            {"noise": {"kind": "scanner", "options": {"sd_m": "a"}}},
             "noise.options: sd_m: expected a number, found 'a'",
         ),
         (
@@ -174,16 +175,16 @@ def test_a_misuse_is_one_line(table, words):
 
 def test_names_of_the_package_and_of_its_folders_are_taken():
     with pytest.raises(SpecError, match="'stereo': expected a new name"):
-        register_sensor(Sensor("stereo", "mine", LIDAR.capture))
+        register_sensor(Sensor("stereo", "mine", SCANNER.capture))
     with pytest.raises(SpecError, match="'mask'"):
-        register_sensor(Sensor("mine", "mine", LIDAR.capture, pictures=("mask",)))
+        register_sensor(Sensor("mine", "mine", SCANNER.capture, pictures=("mask",)))
     with pytest.raises(SpecError, match="'mixed': expected a new name"):
         register_family(Family("mixed", "mine", draw=BRICK.draw))
 
 
 def test_a_sensor_that_no_module_holds_is_refused_before_workers_start(tmp_path):
     def capture(shot: SensorInput) -> Capture:
-        return LIDAR.capture(shot)
+        return SCANNER.capture(shot)
 
     register_sensor(Sensor("local", "mine", capture))
     spec = convert_spec({"noise": {"kind": "local"}}, where="test")

@@ -1,4 +1,4 @@
-"""A scanning lidar: range along every n-th row, with noise, up to a greatest distance."""
+"""A line scanner: range along every n-th row, with noise, up to a greatest distance."""
 
 import numpy as np
 from msgspec import Struct
@@ -6,7 +6,7 @@ from msgspec import Struct
 from synth.sensor import Capture, Sensor, SensorInput, register_sensor
 
 
-class LidarOptions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+class ScannerOptions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """The table [noise.options]."""
 
     rows_apart: int = 4
@@ -15,9 +15,9 @@ class LidarOptions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True
 
 
 def capture(shot: SensorInput) -> Capture:
-    options: LidarOptions = shot.options
+    options: ScannerOptions = shot.options
     exact_m = shot.view.depth_m
-    depth_m = exact_m + options.sd_m * shot.random("lidar").standard_normal(exact_m.shape)
+    depth_m = exact_m + options.sd_m * shot.random("scanner").standard_normal(exact_m.shape)
     scanned = np.zeros(exact_m.shape, dtype=bool)
     scanned[:: options.rows_apart] = True
     seen = scanned & (exact_m <= options.farthest_m)
@@ -29,6 +29,6 @@ def capture(shot: SensorInput) -> Capture:
     )
 
 
-LIDAR = register_sensor(
-    Sensor("lidar", "a scanning lidar", capture, pictures=("intensity",), options=LidarOptions)
+SCANNER = register_sensor(
+    Sensor("scanner", "a line scanner", capture, pictures=("intensity",), options=ScannerOptions)
 )

@@ -37,6 +37,7 @@ FORMAT = CameraFormat(
     suffixes=(".json",),
     summary="object of views by number with `cam_K` and `depth_scale`, mm a step; the view is "
     "`--camera-view`, else the number that is the image's name",
+    tested_with="BOP toolkit, scene_camera.json",
     sniff=lambda head: _START.match(head.removeprefix(b"\xef\xbb\xbf")) is not None,
     read=read_scene_camera,
 )

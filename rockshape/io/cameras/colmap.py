@@ -83,6 +83,7 @@ FORMAT = CameraFormat(
     suffixes=(".txt",),
     summary="cameras.txt, a line a camera: id, model, width, height, parameters; of several, "
     "`--camera-view` is the id",
+    tested_with="COLMAP format.rst",
     sniff=_is_colmap,
     read=read_colmap,
 )

@@ -41,6 +41,7 @@ FORMAT = CameraFormat(
     name="Middlebury",
     suffixes=(".txt",),
     summary="calib.txt with `cam0`, `baseline`, mm, `doffs`, `width`, `height`, px",
+    tested_with="Middlebury Stereo Evaluation 3",
     sniff=lambda head: _START.search(head) is not None,
     read=read_calib,
 )

@@ -115,6 +115,7 @@ FORMAT = CameraFormat(
     suffixes=(".json",),
     summary="transforms.json with `fl_x`, `fl_y`, `cx`, `cy`, `w`, `h`, px, `k1`, `k2`, `p1`, "
     "`p2`; or `camera_angle_x`, rad; a frame's own come first",
+    tested_with="nerfstudio data conventions",
     sniff=lambda head: _KEY.search(head) is not None,
     read=read_transforms,
 )

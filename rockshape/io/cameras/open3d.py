@@ -44,6 +44,7 @@ FORMAT = CameraFormat(
     name="Open3D",
     suffixes=(".json",),
     summary="`intrinsic_matrix` by columns, `width`, `height`, px",
+    tested_with="Open3D, ConvertToJsonValue",
     sniff=lambda head: _KEY.search(head) is not None,
     read=read_open3d,
 )

@@ -146,6 +146,7 @@ FORMAT = CameraFormat(
     suffixes=(".yml", ".yaml", ".json", ".xml"),
     summary="FileStorage with `camera_matrix` and `distortion_coefficients`; `M1`, `D1`, `M2`, "
     "`D2`, `R`, `T` of a stereo pair; or `Q`, or `P1` and `P2`, of a rectified one",
+    tested_with="OpenCV",
     sniff=lambda head: _MARK.search(head) is not None,
     read=read_opencv,
 )

@@ -82,6 +82,7 @@ FORMAT = CameraFormat(
     suffixes=(".json",),
     summary="`fx`, `fy`, `ppx`, `ppy`, `width`, `height`, px, `model`, `coeffs`, and "
     "`depth_scale`, metres a step",
+    tested_with="librealsense rs_types.h",
     sniff=lambda head: _KEY.search(head) is not None,
     read=read_realsense,
 )

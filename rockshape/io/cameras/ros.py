@@ -109,6 +109,7 @@ FORMAT = CameraFormat(
     suffixes=(".yaml", ".yml"),
     summary="YAML with `image_width`, `image_height`, `camera_matrix`, `distortion_model`, "
     "`distortion_coefficients`; or the printed message",
+    tested_with="sensor_msgs/CameraInfo, camera_calibration_parsers",
     sniff=lambda head: _KEY.search(head) is not None and b"opencv-matrix" not in head,
     read=read_camera_info,
 )

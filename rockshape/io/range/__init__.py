@@ -1,6 +1,6 @@
 """Range formats, a file each."""
 
-from rockshape.io.range import imp_table, netpbm, npy, npz, pcd, pds, pfm, ply, png, tiff
+from rockshape.io.range import exr, imp_table, netpbm, npy, npz, pcd, pds, pfm, ply, png, tiff
 
 FORMATS = (
     npy.FORMAT,
@@ -9,6 +9,7 @@ FORMATS = (
     png.FORMAT,
     netpbm.FORMAT,
     pfm.FORMAT,
+    exr.FORMAT,
     ply.FORMAT,
     pcd.FORMAT,
     pds.PDS3,

@@ -57,6 +57,7 @@ FORMAT = RangeFormat(
     suffixes=(".tab", ".txt"),
     summary="a row a pixel of line, sample, x, y, z, m, and a pixel value, after a PDS3 label or "
     "none",
+    tested_with="MPFL-M-IMP-5-3DPOSITION-V1.0",
     sniff=_is_table,
     read=read_imp_table,
 )

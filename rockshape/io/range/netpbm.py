@@ -33,6 +33,7 @@ FORMAT = RangeFormat(
     name="PGM",
     suffixes=(".pgm",),
     summary="z-depth (rows, cols), 16 bits, in steps of `depth_scale`, 0 for none",
+    tested_with="OpenCV",
     sniff=magic(b"P5"),
     read=read_pgm,
 )

@@ -44,6 +44,7 @@ FORMAT = RangeFormat(
     suffixes=(".pcd",),
     summary="organised cloud as wide and high as the image, ASCII, binary or compressed, m; with "
     "the extra `pcd`",
+    tested_with="pypcd4",
     sniff=lambda head: _START.match(head) is not None,
     read=read_pcd,
 )

@@ -63,6 +63,7 @@ PDS3 = RangeFormat(
     suffixes=(".img", ".lbl", ".xyz", ".rng"),
     summary="XYZ product of points in a rover's frame, or RNG product of length along the ray, m, "
     "attached or detached label; with the extra `pds`",
+    tested_with="PDS Standards Reference 3.8, MER camera SIS",
     sniff=is_pds3,
     read=read_pds_range,
 )
@@ -70,6 +71,7 @@ PDS4 = RangeFormat(
     name="PDS4",
     suffixes=(".xml",),
     summary="label of an XYZ or RNG product; with the extra `pds`",
+    tested_with="PDS4 Standards Reference 1.16",
     sniff=is_pds4,
     read=read_pds_range,
 )

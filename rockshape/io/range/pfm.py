@@ -46,6 +46,7 @@ FORMAT = RangeFormat(
     name="PFM",
     suffixes=(".pfm",),
     summary="z-depth, or points of a file of three channels, m; disparity by `--range-kind`",
+    tested_with="Debevec, PFM",
     sniff=magic(b"Pf\n", b"PF\n", b"Pf ", b"PF "),
     read=read_pfm,
 )

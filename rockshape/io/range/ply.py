@@ -33,6 +33,7 @@ FORMAT = RangeFormat(
     name="PLY",
     suffixes=(".ply",),
     summary="one vertex a pixel, in the image's reading order, m",
+    tested_with="trimesh",
     sniff=magic(b"ply\n", b"ply\r"),
     read=read_ply,
 )

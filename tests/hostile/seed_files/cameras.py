@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 
 from tests.hostile.scene import CAMERA
-from tests.hostile.seed_files.encoding import File, as_json
+from tests.hostile.seed_files.encoding import File, as_json, pds4
 from tests.hostile.seed_files.ranges import BASELINE_M, DISPARITY_STEP_PX
 
 K = np.array([[80.0, 0.0, 32.0], [0.0, 80.0, 24.0], [0.0, 0.0, 1.0]])
@@ -39,6 +39,16 @@ height=48
 """
 
 
+CAHVOR = {
+    "C": (0.5, 0.1, -1.2),
+    "A": (1.0, 0.0, 0.0),
+    "H": (32.0, 80.0, 0.0),
+    "V": (24.0, 0.0, 80.0),
+    "O": (1.0, 0.0, 0.0),
+    "R": (0.01, -0.01, 0.0),
+}
+
+
 def files() -> Iterator[File]:
     """A camera of each format."""
     yield "pinhole JSON", ".json", as_json({**CAMERA, "depth_scale": 1.0})
@@ -66,6 +76,54 @@ def files() -> Iterator[File]:
     terms = {"model": "distortion.inverse_brown_conrady", "coeffs": TERMS}
     yield "RealSense", ".json", as_json(own | terms)
     yield "Middlebury", ".txt", MIDDLEBURY.encode()
+    yield "PDS3", ".lbl", _pds3()
+    yield "PDS4", ".xml", _pds4()
+
+
+def _pds3() -> bytes:
+    """CAHVOR after the MER camera SIS, GEOMETRIC_CAMERA_MODEL."""
+    label = [
+        "PDS_VERSION_ID = PDS3",
+        "RECORD_TYPE = UNDEFINED",
+        '^IMAGE = ("hostile.img", 1 <BYTES>)',
+        "GROUP = GEOMETRIC_CAMERA_MODEL",
+        "  MODEL_TYPE = CAHVOR",
+        *(f"  MODEL_COMPONENT_{k} = {vector}" for k, vector in enumerate(CAHVOR.values(), 1)),
+        "END_GROUP = GEOMETRIC_CAMERA_MODEL",
+        "OBJECT = IMAGE",
+        "  LINES = 48",
+        "  LINE_SAMPLES = 64",
+        "  SAMPLE_TYPE = UNSIGNED_INTEGER",
+        "  SAMPLE_BITS = 8",
+        "END_OBJECT = IMAGE",
+        "END",
+    ]
+    return ("\r\n".join(label) + "\r\n").encode()
+
+
+def _pds4() -> bytes:
+    """CAHV after the PDS4 geometry dictionary, beside an array."""
+    names = {
+        "C": ("Center", "position"),
+        "A": ("Axis", "unit"),
+        "H": ("Horizontal", "pixel"),
+        "V": ("Vertical", "pixel"),
+    }
+    vectors = "".join(
+        f"<geom:Vector_{part}>"
+        + "".join(
+            f"<geom:{axis}_{unit}>{value}</geom:{axis}_{unit}>"
+            for axis, value in zip("xyz", CAHVOR[letter], strict=True)
+        )
+        + f"</geom:Vector_{part}>"
+        for letter, (part, unit) in names.items()
+    )
+    start = b'xmlns="http://pds.nasa.gov/pds4/pds/v1"'
+    area = f"<Observation_Area><geom:CAHV_Model>{vectors}</geom:CAHV_Model></Observation_Area>"
+    label = pds4(np.zeros((48, 64), np.uint8), data_type="UnsignedByte")
+    return label.replace(start, start + b' xmlns:geom="http://pds.nasa.gov/pds4/geom/v1"').replace(
+        b"<File_Area_Observational>", area.encode() + b"<File_Area_Observational>"
+    )
 
 
 def _opencv() -> Iterator[File]:

@@ -7,6 +7,7 @@ import pypcd4
 
 from tests.hostile.scene import SHAPE, depth_m, points_m
 from tests.hostile.seed_files.encoding import File, npy, npz, pds3, pds4, pillow, tiff
+from tests.rockshape.io.exr_file import ZIPS, exr
 
 BASELINE_M = 0.1
 DISPARITY_STEP_PX = 1 / 256
@@ -24,6 +25,8 @@ def files() -> Iterator[File]:
     yield "TIFF", ".tif", tiff(points_m().astype(np.float32), photometric="rgb")
     yield "PFM", ".pfm", _pfm(depth_m())
     yield "PFM", ".pfm", _pfm(points_m())
+    yield "OpenEXR", ".exr", exr({"Z": depth_m().astype(np.float32)}, compression=ZIPS)
+    yield "OpenEXR", ".exr", exr({"V": depth_m().astype(np.float16)})
     yield "PLY", ".ply", _ply()
     for encoding in pypcd4.Encoding:
         yield "PCD", ".pcd", _pcd(encoding)

@@ -2,10 +2,11 @@
 
 Writers are others' where there are light ones; PFM after Debevec, "PFM: portable float map"; PDS3
 products after the MER camera SIS and the standards reference, chapter 5; the IMP table after the
-data set MPFL-M-IMP-5-3DPOSITION-V1.0.
+data set MPFL-M-IMP-5-3DPOSITION-V1.0; OpenEXR after "The OpenEXR File Layout".
 """
 
 import json
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -18,6 +19,7 @@ import trimesh
 
 from rockshape.errors import InputError
 from rockshape.io import read_camera, read_points
+from tests.rockshape.io.exr_file import NONE, ZIPS, exr
 from tests.rockshape.io.sphere_scene import CAMERA, Scene, measure_files, sphere_scene
 
 SHAPE = (240, 320)
@@ -108,6 +110,23 @@ def ply(folder: Path, scene: Scene) -> Path:
     return saved(folder / "c.ply", trimesh.PointCloud(points).export)
 
 
+def exr_points(folder: Path, scene: Scene) -> Path:
+    """Position pass of a layer, beside its colours."""
+    points = holed(scene.points_m, 0).astype(np.float32)
+    channels = {f"ViewLayer.Position.{axis}": points[..., k] for k, axis in enumerate("XYZ")}
+    colour = np.zeros(SHAPE, np.float16)
+    channels |= {f"ViewLayer.Combined.{name}": colour for name in "RGBA"}
+    path = folder / "position.exr"
+    path.write_bytes(exr(channels, compression=ZIPS))
+    return path
+
+
+def exr_depth(folder: Path, name: str, values: np.ndarray, compression: int = NONE) -> Path:
+    path = folder / "z.exr"
+    path.write_bytes(exr({name: values}, compression=compression))
+    return path
+
+
 Make = Callable[[Path, Scene], Path]
 XYZ: dict[str, Make] = {
     "NPZ": lambda f, s: saved(f / "z.npz", lambda at: np.savez(at, xyz=holed(s.points_m, 0))),
@@ -126,6 +145,7 @@ XYZ: dict[str, Make] = {
         f, holed(s.points_m, -777), detached=True, constant="(-777.0, -777.0, -777.0)"
     ),
     "IMP table": imp_table,
+    "EXR position": exr_points,
 }
 RASTERS: dict[str, tuple[Make, dict[str, float]]] = {
     "NPY depth": (
@@ -140,6 +160,15 @@ RASTERS: dict[str, tuple[Make, dict[str, float]]] = {
     "PGM": (lambda f, s: saved(f / "z.pgm", lambda at: cv2.imwrite(at, steps(s))), MM),
     "PFM little": (lambda f, s: pfm(f, holed(s.depth_m, np.inf), order="<"), {}),
     "PFM big": (lambda f, s: pfm(f, holed(s.depth_m, 0), order=">"), {}),
+    "EXR float": (
+        lambda f, s: exr_depth(f, "Z", holed(s.depth_m, 1e10).astype(np.float32), ZIPS),
+        {},
+    ),
+    "EXR half": (
+        lambda f, s: exr_depth(f, "Depth.Z", holed(s.depth_m, np.inf).astype(np.float16)),
+        {},
+    ),
+    "EXR steps": (lambda f, s: exr_depth(f, "V", steps(s, np.uint32)), MM),
     "PDS RNG": (
         lambda f, s: pds3(f, holed(s.distance_m, 0), detached=False, constant="0.0"),
         {},
@@ -194,3 +223,24 @@ def test_wrong_sizes_and_damage_are_one_line(
             read_points(path, shape=SHAPE, camera=None)
         assert "\n" not in str(refused.value)
     assert capfd.readouterr() == ("", "")
+
+
+def test_other_channels_and_windows_of_an_exr_are_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    plane = np.ones(SHAPE, np.float32)
+    path = tmp_path / "z.exr"
+    wrong = [
+        (exr({"R": plane, "G": plane, "B": plane}), "the channels B, G, R, not one Z"),
+        (exr({"A.Z": plane, "B.Z": plane}), "the channels A.Z, B.Z, not one Z"),
+        (exr({"Z": plane}, first=(10, 0)), "expected pixels for the whole picture"),
+        (exr({f"layer{k:02}.V": plane for k in range(65)}), "65 channels"),
+        (exr({"Z": np.ones((2000, 2000), np.float32)}), "as the image has"),
+    ]
+    for content, says in wrong:
+        path.write_bytes(content)
+        with pytest.raises(InputError, match=says):
+            read_points(path, shape=SHAPE, camera=None)
+    monkeypatch.setitem(sys.modules, "OpenEXR", None)
+    with pytest.raises(InputError, match=r"pip install 'rockshape\[exr\]'"):
+        read_points(path, shape=SHAPE, camera=None)

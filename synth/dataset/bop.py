@@ -110,10 +110,17 @@ def _info(
     }
 
 
-def scene_gt_coco(scene: SceneModel, index: int, first_id: int, views: Sequence[Sight]) -> Table:
+def scene_gt_coco(
+    scene: SceneModel,
+    index: int,
+    first_id: int,
+    views: Sequence[Sight],
+    *,
+    pictures: str = "gray",
+) -> Table:
     """Table of scene_gt_coco.json: visible masks in run lengths down the columns.
 
-    A rock that is not seen has no annotation.
+    A rock that is not seen has no annotation. `pictures` is the folder of the images.
     """
     annotations: list[Table] = []
     for number, view in enumerate(views):
@@ -138,7 +145,7 @@ def scene_gt_coco(scene: SceneModel, index: int, first_id: int, views: Sequence[
         "images": [
             {
                 "id": number,
-                "file_name": f"gray/{number:06d}.png",
+                "file_name": f"{pictures}/{number:06d}.png",
                 "width": scene.camera.width,
                 "height": scene.camera.height,
             }

@@ -41,16 +41,16 @@ def sheet_row(folder: Path) -> Bytes:
     over each picture's own range, white where nothing was measured.
     """
     cells = []
-    for path in sorted((folder / "gray").iterdir())[:_MAX_VIEWS]:
-        image, depth, labels = (_read(folder / name / path.name) for name in _KINDS)
+    pictures = folder / "rgb" if (folder / "rgb").is_dir() else folder / "gray"
+    for path in sorted(pictures.iterdir())[:_MAX_VIEWS]:
+        image, depth, labels = (
+            _read(place / path.name) for place in (pictures, folder / "depth", folder / "labels")
+        )
         cells += [_tinted(image, labels), _coloured(depth)]
     gap = np.full((cells[0].shape[0], _GAP_PX, 3), _PAPER, dtype=np.uint8)
     row = np.concatenate([part for cell in cells for part in (cell, gap)], axis=1)
     foot = np.full((_GAP_PX, row.shape[1], 3), _PAPER, dtype=np.uint8)
     return np.concatenate([row, foot])
-
-
-_KINDS = ("gray", "depth", "labels")
 
 
 def _read(path: Path) -> Image:
@@ -61,7 +61,8 @@ def _read(path: Path) -> Image:
 def _tinted(image: Image, labels: Image) -> Bytes:
     """Small picture (rows, cols, 3) with each rock in a colour of its own."""
     grey = image if image.dtype == np.uint8 else (image >> 8).astype(np.uint8)
-    small = cv2.cvtColor(_shrunk(grey, cv2.INTER_AREA), cv2.COLOR_GRAY2BGR)
+    small = _shrunk(grey, cv2.INTER_AREA)
+    small = cv2.cvtColor(small, cv2.COLOR_GRAY2BGR) if small.ndim == 2 else small
     rock = _shrunk(labels.astype(np.uint16), cv2.INTER_NEAREST)
     hue = np.rint(180.0 * ((rock * _GOLDEN) % 1.0)).astype(np.uint8) % 180
     full = np.full_like(hue, 255)

@@ -26,8 +26,14 @@ _PNG = (
 _SIGNIFICANT = 12  # digits of a number in JSON: far below any error, above the last bits' noise
 
 
+def write_rgb_png(path: Path, image: NDArray[np.uint8] | NDArray[np.uint16]) -> None:
+    """Write an image (rows, cols, 3) of red, green and blue."""
+    blue_first: NDArray[Any] = np.ascontiguousarray(image[..., ::-1])
+    write_png(path, blue_first)
+
+
 def write_png(path: Path, image: NDArray[np.uint8] | NDArray[np.uint16]) -> None:
-    """Write an image of 8 or 16 bits; the encoder adds no date."""
+    """Write an image of 8 or 16 bits, grey or (rows, cols, 3) blue first; no date is added."""
     _, data = cv2.imencode(".png", image, _PNG)
     path.write_bytes(data.tobytes())
 

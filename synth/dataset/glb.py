@@ -53,8 +53,8 @@ def _near(body: Body, reach_m: float) -> Body:
 
 
 def _geometry(body: Body) -> trimesh.Trimesh:
-    grey = round(255.0 * body.albedo)
-    colours = np.tile(np.array([grey, grey, grey, 255], dtype=np.uint8), (len(body.vertices_m), 1))
+    colour = np.clip(np.rint(255.0 * body.albedo * body.tint), 0.0, 255.0)
+    colours = np.tile(np.array([*colour, 255], dtype=np.uint8), (len(body.vertices_m), 1))
     return trimesh.Trimesh(
         vertices=body.vertices_m,
         faces=body.faces,

@@ -10,7 +10,7 @@ from synth.arrays import Floats
 from synth.errors import SpecError
 from synth.geometry.mesh import Mesh
 from synth.scene.scene import SceneModel
-from synth.spec import SceneSpec, dataset_of
+from synth.spec import SceneSpec, dataset_of, image_of
 from synth.spec.dataset import LayoutName
 
 MAX_ROCKS = 1000  # object ids leave this much room for each scene
@@ -86,6 +86,17 @@ def splits_of(spec: SceneSpec) -> dict[str, range]:
 def first_object_id(spec: SceneSpec, index: int) -> int:
     """Object id of a scene's first rock; the others follow: 1000 × scene + instance + 1."""
     return 1 if dataset_of(spec).shared_rocks else MAX_ROCKS * index + 1
+
+
+def picture_folder(spec: SceneSpec) -> str:
+    """Folder of the pictures that are looked at first: in colour where there is colour."""
+    return "rgb" if image_of(spec).colour else "gray"
+
+
+def image_folders(spec: SceneSpec) -> list[str]:
+    """Folders of a scene that [image] adds."""
+    image = image_of(spec)
+    return [name for name, made in (("rgb", image.colour), ("normals", image.normals)) if made]
 
 
 def model_origins_m(spec: SceneSpec, scene: SceneModel) -> list[Floats]:

@@ -23,27 +23,31 @@ from synth.dataset.files import (
     write_json,
     write_ply_mm,
     write_png,
+    write_rgb_png,
 )
 from synth.dataset.glb import scene_glb
 from synth.dataset.layout import (
     first_object_id,
+    image_folders,
     layout_of,
     model_origins_m,
+    picture_folder,
     scene_number,
     scene_path,
 )
+from synth.dataset.normals import encode_normals
 from synth.dataset.range_files import RANGE_FOLDER, hole_table, hole_value, write_range
 from synth.dataset.shape_truth import scene_gt_shape
 from synth.dataset.splits import write_splits
 from synth.dataset.workers import begin_scene
-from synth.light import Stage, light_scene
+from synth.light import Stage, spec_stage
 from synth.progress import counted
 from synth.render import RenderedView, open_renderer, render_view
 from synth.render.interface import Renderer
 from synth.render.view import Sight
 from synth.scene.scene import SceneModel, build_scene
 from synth.sensor import Capture, capture_view, sensor_of
-from synth.spec import RendererName, SceneSpec, truth_of
+from synth.spec import RendererName, SceneSpec, image_of, truth_of
 
 PARTIAL = ".partial"  # folder of scenes that are not whole yet, gone when the dataset is
 _DISTRIBUTIONS = ("rockshape", "numpy", "scipy", "trimesh", "opencv-python-headless", "embreex")
@@ -60,13 +64,14 @@ def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -
     sensor = sensor_of(spec)
     begin_scene(scene_number(index))
     scene = build_scene(spec, index)
-    stage = light_scene(scene, spec.sun, spec.surface)
+    stage = spec_stage(spec, scene)
     renderer = open_renderer(backend, stage, scene.camera)
     scale_mm = depth_scale_mm(spec)
     folder = out / PARTIAL / f"{scene_number(index)}.{os.getpid()}"
     shutil.rmtree(folder, ignore_errors=True)
     ranges = () if hole_value(spec) is None else (RANGE_FOLDER,)
-    for name in (*sensor.folders(), *ranges, "labels", "mask", "mask_visib", "models"):
+    added = (*ranges, *image_folders(spec))
+    for name in (*sensor.folders(), *added, "labels", "mask", "mask_visib", "models"):
         (folder / name).mkdir(parents=True)
     views: list[Sight] = []
     valid = []
@@ -80,6 +85,9 @@ def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -
         if not sensor.exact_range:
             exact = encode_depth(view.depth_m, scale_mm)
             write_png(folder / "depth_true" / f"{number:06d}.png", exact)
+        if view.normals is not None:
+            normals = encode_normals(view.normals)
+            write_rgb_png(folder / "normals" / f"{number:06d}.png", normals)
         _write_masks(folder, number, view)
         views.append(view.sight())
         valid.append(depth > 0)
@@ -93,7 +101,7 @@ def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -
         **_camera_tables(spec, index, scene, scale_mm),
         "gt": bop.scene_gt(scene, first_id, origins_m),
         "gt_info": bop.scene_gt_info(scene, views, valid),
-        "gt_coco": bop.scene_gt_coco(scene, index, first_id, views),
+        "gt_coco": bop.scene_gt_coco(scene, index, first_id, views, pictures=picture_folder(spec)),
         "gt_shape": scene_gt_shape(scene, first_id, views, models=models, wanted=truth_of(spec)),
     }
     for name, table in tables.items():
@@ -117,7 +125,14 @@ def capture_frame(
 ) -> tuple[RenderedView, Capture]:
     """View `number` of scene `index`: as it is rendered exactly, and as the sensor captures it."""
     pose, supersample = scene.poses[number], spec.camera.supersample
-    view = render_view(renderer, stage, scene.camera, pose, supersample=supersample)
+    view = render_view(
+        renderer,
+        stage,
+        scene.camera,
+        pose,
+        supersample=supersample,
+        normals=image_of(spec).normals,
+    )
     capture = capture_view(
         view,
         pose,
@@ -199,6 +214,8 @@ def _write_pictures(folder: Path, number: int, capture: Capture, depth: NDArray[
     name = f"{number:06d}.png"
     write_png(folder / "gray" / name, capture.picture)
     write_png(folder / "depth" / name, depth)
+    if capture.colour is not None:
+        write_rgb_png(folder / "rgb" / name, capture.colour)
     for own, picture in capture.pictures.items():
         write_png(folder / own / name, picture)
 

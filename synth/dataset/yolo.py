@@ -30,7 +30,8 @@ def write_yolo_scene(scene: Path, out: Path, split: str) -> None:
     images, labels = (out / FOLDER / name / split for name in ("images", "labels"))
     for folder in (images, labels):
         folder.mkdir(parents=True, exist_ok=True)
-    for path in sorted((scene / "gray").iterdir()):
+    pictures = scene / "rgb" if (scene / "rgb").is_dir() else scene / "gray"
+    for path in sorted(pictures.iterdir()):
         stem = f"{scene.name}_{path.stem}"
         shutil.copyfile(path, images / f"{stem}.png")
         table = cv2.imdecode(

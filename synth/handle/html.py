@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.arrays import DepthImage, Image, LabelImage
+from synth.arrays import ColourImage, DepthImage, Image, LabelImage
 from synth.sensor.exposure import eight_bits
 
 if TYPE_CHECKING:
@@ -30,11 +30,16 @@ _MOST_ROWS = 12
 
 
 def figure_html(
-    image: Image | LabelImage, depth_m: DepthImage | None, *, caption: str, table: "pd.DataFrame"
+    image: Image | ColourImage | LabelImage,
+    depth_m: DepthImage | None,
+    *,
+    caption: str,
+    table: "pd.DataFrame",
 ) -> str:
     """HTML of an image, its depth in colours if there is one, and the first rows of a table."""
-    grey = image if image.dtype == np.uint8 else eight_bits(image)
-    images = [_tag(grey)] if depth_m is None else [_tag(grey), _tag(_coloured(depth_m))]
+    shown: NDArray[Any] = image if image.dtype == np.uint8 else eight_bits(image)
+    shown = shown if shown.ndim == 2 else np.ascontiguousarray(shown[..., ::-1])
+    images = [_tag(shown)] if depth_m is None else [_tag(shown), _tag(_coloured(depth_m))]
     columns = [name for name in _SHOWN if name in table] or list(table.columns)
     rows = table[columns].head(_MOST_ROWS).to_html(index=False, float_format="{:.3g}".format)
     return f"<p>{escape(caption)}</p><p>{' '.join(images)}</p>{rows}"

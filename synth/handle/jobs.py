@@ -6,16 +6,17 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from synth.arrays import DepthImage, Image, LabelImage
+from synth.arrays import ColourImage, DepthImage, Image, LabelImage, NormalImage
 from synth.camera.calibration import reported_pose
 from synth.camera.camera import Pose
 from synth.dataset.depth import decode_depth, depth_scale_mm, encode_depth
 from synth.dataset.files import plain
 from synth.dataset.generate import generate_dataset
 from synth.dataset.layout import first_object_id
+from synth.dataset.normals import decode_normals, encode_normals
 from synth.dataset.shape_truth import scene_gt_shape
 from synth.dataset.write import capture_frame
-from synth.light import light_scene
+from synth.light import spec_stage
 from synth.render import choose_backend, open_renderer
 from synth.scene.scene import SceneModel, build_scene
 from synth.sensor import sensor_of
@@ -36,7 +37,8 @@ class BuiltScene:
 class ViewParts:
     """Contents of the dataset for one view."""
 
-    image: Image
+    image: Image | ColourImage
+    normals: NormalImage | None
     depth_m: DepthImage
     exact_depth_m: DepthImage
     labels: LabelImage
@@ -69,19 +71,21 @@ def render(spec: SceneSpec, index: int, number: int, model: bytes) -> ViewParts:
     """
     sensor_of(spec)
     scene: SceneModel = pickle.loads(model)
-    stage = light_scene(scene, spec.sun, spec.surface)
+    stage = spec_stage(spec, scene)
     renderer = open_renderer(choose_backend(spec.renderer), stage, scene.camera)
     view, capture = capture_frame(spec, index, number, scene=scene, stage=stage, renderer=renderer)
     scale_mm = depth_scale_mm(spec)
     seen = replace(scene, poses=(scene.poses[number],))
     first_id = first_object_id(spec, index)
     truth = plain(scene_gt_shape(seen, first_id, [view.sight()], wanted=truth_of(spec)))
+    grey = {} if capture.colour is None else {"gray": capture.picture}
     return ViewParts(
-        image=capture.picture,
+        image=capture.picture if capture.colour is None else capture.colour,
+        normals=None if view.normals is None else decode_normals(encode_normals(view.normals)),
         depth_m=decode_depth(encode_depth(capture.depth_m, scale_mm), scale_mm),
         exact_depth_m=decode_depth(encode_depth(view.depth_m, scale_mm), scale_mm),
         labels=view.labels,
-        pictures=capture.pictures,
+        pictures={**grey, **capture.pictures},
         pose=reported_pose(spec, scene.poses[number], scene=index, view=number),
         exact_pose=scene.poses[number],
         rocks=truth["rocks"],

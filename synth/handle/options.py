@@ -42,6 +42,8 @@ class SceneOptions(TypedDict, total=False):
     sun: Table
     sensor: Table
     calibration: Table
+    tints: Table
+    image: Table
     dataset: Table
     truth: Table
 

@@ -91,6 +91,7 @@ class Scene:
             image=parts.image,
             depth_m=parts.depth_m,
             exact_depth_m=parts.exact_depth_m,
+            normals=parts.normals,
             labels=parts.labels,
             camera=self.camera,
             pose=parts.pose,

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from synth.arrays import DepthImage, Image, LabelImage
+from synth.arrays import ColourImage, DepthImage, Image, LabelImage, NormalImage
 from synth.camera.camera import Pose, RenderCamera
 from synth.handle.html import figure_html
 
@@ -19,9 +19,10 @@ if TYPE_CHECKING:
 class View:
     """One rendered view; its arrays are what a reader of the dataset would have."""
 
-    image: Image  # (rows, cols), with the sensor's noise
+    image: Image | ColourImage  # (rows, cols), in colour (rows, cols, 3); with the sensor's noise
     depth_m: DepthImage  # (rows, cols), as measured; NaN in holes
     exact_depth_m: DepthImage  # (rows, cols), without the sensor's errors
+    normals: NormalImage | None  # (rows, cols, 3), where the specification asks for them
     labels: LabelImage  # (rows, cols), the value of a rock's `id` in `truth`, 0 elsewhere
     camera: RenderCamera  # as reported: with the errors of calibration, if the spec has them
     pose: Pose  # likewise
@@ -38,7 +39,7 @@ class View:
 
         figure = Figure(figsize=(10, 4.5), layout="constrained")
         left, right = figure.subplots(1, 2)
-        left.imshow(self.image, cmap="gray")
+        left.imshow(self.image if self.image.dtype == np.uint8 else self.image >> 8, cmap="gray")
         rock = np.ma.masked_equal(self.labels, 0)
         left.imshow(rock % 20, cmap="tab20", alpha=0.35, interpolation="nearest")
         left.set_title(f"{len(self.truth)} rocks")

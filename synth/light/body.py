@@ -1,13 +1,23 @@
 """Body: one surface of a scene, as rays and the painter see it."""
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 
-from synth.arrays import Floats, Ints
+import numpy as np
+
+from synth.arrays import Floats, Ints, Singles
+
+Paint = Callable[[Singles, Singles], Singles]
+"""Factor (n, 3) on a body's reflectance in R, G, B at points (n, 3) of its own frame, averaged
+over footprints (n,), both in metres."""
 
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """Surface in the world, with the frame that its albedo is defined in."""
+    """Surface in the world, with the frame that its reflectance is defined in.
+
+    Its linear reflectance in R, G, B is albedo × tint × paint; a grey picture has the luminance.
+    """
 
     vertices_m: Floats  # (n, 3)
     faces: Ints  # (m, 3)
@@ -15,3 +25,5 @@ class Body:
     albedo: float  # the mean over the surface
     model_to_world: Floats  # (3, 3), the texture turns with the body
     position_m: Floats  # (3,), and moves with it
+    tint: Floats = field(default_factory=lambda: np.ones(3))  # (3,), of luminance 1
+    paint: Paint | None = None  # None: even

@@ -3,6 +3,7 @@
 import numpy as np
 
 from synth.light.body import Body
+from synth.light.colour import Appearance, tint
 from synth.light.lit_scene import Stage
 from synth.light.painter import Painter
 from synth.scene.scene import SceneModel
@@ -10,9 +11,16 @@ from synth.spec.surface import SurfaceSpec
 from synth.spec.view import SunSpec
 
 
-def light_scene(scene: SceneModel, sun: SunSpec, surface: SurfaceSpec | None = None) -> Stage:
-    """Scene's surfaces with a painter that knows their light."""
+def light_scene(
+    scene: SceneModel,
+    sun: SunSpec,
+    surface: SurfaceSpec | None = None,
+    *,
+    appearance: Appearance | None = None,
+) -> Stage:
+    """Scene's surfaces with a painter that knows their light; grey without an appearance."""
     surface = SurfaceSpec() if surface is None else surface
+    white = tint((1.0, 1.0, 1.0))
     rocks = tuple(
         Body(
             vertices_m=placed.mesh.vertices_m,
@@ -21,6 +29,7 @@ def light_scene(scene: SceneModel, sun: SunSpec, surface: SurfaceSpec | None = N
             albedo=placed.albedo,
             model_to_world=placed.model_to_world,
             position_m=placed.position_m,
+            tint=tint(placed.finish.rgb),
         )
         for placed in scene.rocks
     )
@@ -32,6 +41,7 @@ def light_scene(scene: SceneModel, sun: SunSpec, surface: SurfaceSpec | None = N
             albedo=surface.ground_albedo,
             model_to_world=np.eye(3),
             position_m=np.zeros(3),
+            tint=white if appearance is None else appearance.ground,
         )
         for mesh in scene.ground.meshes()
     )
@@ -42,5 +52,5 @@ def light_scene(scene: SceneModel, sun: SunSpec, surface: SurfaceSpec | None = N
         ground=ground,
         plane_normal=up,
         rise_m=max(float((body.vertices_m @ up).max()) for body in ground),
-        painter=Painter(rocks, ground, plane, sun, surface),
+        painter=Painter(rocks, ground, plane, sun, surface, appearance=appearance),
     )

@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 
 from synth.arrays import Floats, Singles
 from synth.camera.camera import Pose, RenderCamera
-from synth.light.albedo import Albedo
 from synth.light.body import Body
+from synth.light.colour import Appearance
 from synth.light.photometry import EXPOSURE, SKY, light, towards_sun
 from synth.light.rays import Surfaces, directions
+from synth.light.reflectance import Reflectance
 from synth.light.samples import Samples, stretch, width_m
 from synth.light.shade import ShadowMap
 from synth.spec.surface import SurfaceSpec
@@ -39,14 +40,22 @@ class Painter:
         plane_normal: Floats | None,
         sun: SunSpec,
         surface: SurfaceSpec,
+        *,
+        appearance: Appearance | None = None,
     ) -> None:
+        """Take the bodies, their light and its colours; without colours it paints grey."""
         self.surfaces = Surfaces([*rocks, *ground])
         self._bodies = [*rocks, *ground]
         self._rocks = len(rocks)
         self._sun, self._surface = sun, surface
         self._plane = None if plane_normal is None else plane_normal.astype(np.float32)
         self._towards_sun = towards_sun(sun).astype(np.float32)
-        self._albedo = Albedo(rocks, ground, surface)
+        self._reflectance = Reflectance(rocks, ground, surface, appearance)
+        self._sun_colour, self._sky_colour = (
+            np.ones((2, 1), dtype=np.float32)
+            if appearance is None
+            else np.stack([appearance.sun, appearance.sky]).astype(np.float32)
+        )
         level = plane_normal is not None
         self._shadow_map = ShadowMap(
             rocks if level else [], ground[1:] if level else [], towards_sun(sun)
@@ -61,13 +70,15 @@ class Painter:
         *,
         supersample: int,
     ) -> Singles:
-        """Brightness, (rows, cols), 1 for white; what is brighter is more.
+        """Linear light, (rows, cols, k), 1 for white; what is brighter is more.
+
+        k = 3 for red, green and blue, 1 for grey.
 
         Each pixel is shaded at its centre, its texture averaged over it. Where the light jumps,
         at outlines, shadows and edges, a pixel is the mean of supersample² samples instead.
         """
         bright = np.empty(depth_m.shape, dtype=np.float32)
-        value = np.empty(depth_m.shape, dtype=np.float32)
+        value = np.empty((*depth_m.shape, self.channels), dtype=np.float32)
         step = max(1, _AT_ONCE // camera.width)
         for start in range(0, camera.height, step):
             band = slice(start, start + step)
@@ -78,8 +89,14 @@ class Painter:
             edges = np.flatnonzero(_jumps(bright, labels))
             parts = -(-len(edges) * supersample**2 // _AT_ONCE)  # none without an edge
             for part in np.array_split(edges, parts) if parts else ():
-                value.ravel()[part] = self._refined(camera, pose, part, supersample)
+                refined = self._refined(camera, pose, part, supersample)
+                value.reshape(-1, self.channels)[part] = refined
         return value
+
+    @property
+    def channels(self) -> int:
+        """The number of channels of the light: 3 in colour, 1 in grey."""
+        return len(self._sky_colour)
 
     def _centres(
         self,
@@ -89,15 +106,14 @@ class Painter:
         depth_m: Floats,
         first_row: int,
     ) -> tuple[Singles, Singles]:
-        """Light and the brightness of whole rows, sampled at the pixels' centres."""
+        """Brightness of white and the light of whole rows, sampled at the pixels' centres."""
         rows = np.arange(first_row, first_row + len(depth_m), dtype=np.float32)[:, None]
         columns = np.arange(camera.width, dtype=np.float32)[None, :]
         rays = directions(camera, pose, columns, rows).reshape(-1, 3)
         eye_m = pose.position_m().astype(np.float32)
         depth = depth_m.astype(np.float32).ravel()
         points_m = rays * depth[:, None] + eye_m
-        bright = np.full(depth.shape, np.float32(SKY))
-        value = bright.copy()
+        bright, value = self._sky(len(depth))
         there = ~np.isnan(depth)
         flat = self._on_plane(points_m, depth) & (labels.ravel() == 0) & there
         here = np.flatnonzero(flat)
@@ -113,7 +129,11 @@ class Painter:
             bright[here], value[here] = self._shade(samples)
         rest = np.flatnonzero(there & ~flat)
         bright[rest], value[rest] = self._seen(camera, eye_m, rays[rest], 1)
-        return bright.reshape(depth_m.shape), value.reshape(depth_m.shape)
+        return bright.reshape(depth_m.shape), value.reshape(*depth_m.shape, self.channels)
+
+    def _sky(self, count: int) -> tuple[Singles, Singles]:
+        bright = np.full(count, np.float32(SKY))
+        return bright, bright[:, None] * self._sky_colour
 
     def _on_plane(self, points_m: Singles, depth: Singles) -> NDArray[np.bool_]:
         if self._plane is None:
@@ -123,7 +143,7 @@ class Painter:
         return np.asarray(np.abs(points_m @ self._plane) < _ON_PLANE * depth)
 
     def _refined(self, camera: RenderCamera, pose: Pose, pixels: Indices, factor: int) -> Singles:
-        """Brightness of single pixels, each the mean of factor² samples."""
+        """Light of single pixels, (n, k), each the mean of factor² samples."""
         rows, columns = np.divmod(pixels, camera.width)
         offsets = (np.arange(factor, dtype=np.float32) + 0.5) / factor - 0.5
         down, across = (offset.ravel() for offset in np.meshgrid(offsets, offsets, indexing="ij"))
@@ -135,14 +155,14 @@ class Painter:
         )
         eye_m = pose.position_m().astype(np.float32)
         _, value = self._seen(camera, eye_m, rays.reshape(-1, 3), factor)
-        return np.asarray(np.clip(value, 0.0, 1.0).reshape(len(pixels), -1).mean(axis=1))
+        clipped = np.clip(value.T, 0.0, 1.0).reshape(self.channels, len(pixels), -1)
+        return np.asarray(clipped.mean(axis=2).T)
 
     def _seen(
         self, camera: RenderCamera, eye_m: Singles, rays: Singles, factor: int
     ) -> tuple[Singles, Singles]:
-        """Light and the brightness at the end of rays from the eye."""
-        bright = np.full(len(rays), np.float32(SKY))
-        value = bright.copy()
+        """Brightness of white and the light at the end of rays from the eye."""
+        bright, value = self._sky(len(rays))
         hits = self.surfaces.trace(np.broadcast_to(eye_m, rays.shape).copy(), rays)
         here = np.flatnonzero(hits.body >= 0)
         if not len(here):
@@ -161,7 +181,7 @@ class Painter:
         return bright, value
 
     def _shade(self, samples: Samples) -> tuple[Singles, Singles]:
-        """Light on samples and their brightness, each (n,)."""
+        """Brightness of white at samples, (n,), and the light that they give back, (n, k)."""
         normals = samples.normals
         incidence = np.asarray(normals @ self._towards_sun)
         if self._sun.shadows:
@@ -171,8 +191,10 @@ class Painter:
             incidence[shaded] = 0.0
         facing = np.einsum("ij,ij->i", samples.directions, normals)
         emission = -facing / np.linalg.norm(samples.directions, axis=1)
-        bright = light(normals[:, 2], incidence, emission, self._sun, self._surface)
-        return bright, np.float32(EXPOSURE) * bright * self._albedo.at(samples)
+        sky, direct = light(normals[:, 2], incidence, emission, self._sun, self._surface)
+        arriving = sky[:, None] * self._sky_colour + direct[:, None] * self._sun_colour
+        given_back = np.float32(EXPOSURE) * arriving * self._reflectance.at(samples)
+        return sky + direct, given_back
 
 
 def _jumps(bright: Singles, labels: NDArray[np.uint16]) -> NDArray[np.bool_]:

@@ -50,10 +50,11 @@ def reflected(incidence: Reals, emission: Reals, share: float) -> Reals:
 
 def light(
     upward: Singles, incidence: Singles, emission: Singles, sun: SunSpec, surface: SurfaceSpec
-) -> Singles:
-    """Brightness of white surfaces, (n,), 1 for level ground in the sun.
+) -> tuple[Singles, Singles]:
+    """Brightness of white surfaces under the sky and under the sun, (n,) each.
 
-    k (1 − β(1 − n_z)/2) + (1 − k) R(μ₀, μ)/R(s_z, cos 80°): k the sky's share, β what the ground
+    Their sum is 1 for level ground in the sun: k (1 − β(1 − n_z)/2) of the sky and
+    (1 − k) R(μ₀, μ)/R(s_z, cos 80°) of the sun: k the sky's share, β what the ground
     does not give back, `upward` n_z, R the law of `reflected`; μ₀ is 0 in shadow. s_z counts as
     0.5 at least, so that a low sun does not overexpose what faces it.
     """
@@ -62,4 +63,7 @@ def light(
     unit = float(reflected(height, np.array(_USUAL_EMISSION), share))
     sky = 1.0 - (1.0 - BOUNCE) * (1.0 - upward) / 2.0
     direct = reflected(incidence, emission, share) / unit
-    return np.asarray(sun.ambient * sky + (1.0 - sun.ambient) * direct, dtype=np.float32)
+    return (
+        np.asarray(sun.ambient * sky, dtype=np.float32),
+        np.asarray((1.0 - sun.ambient) * direct, dtype=np.float32),
+    )

@@ -8,7 +8,9 @@ from numpy.typing import NDArray
 from synth.arrays import Floats
 from synth.camera.camera import Pose, RenderCamera, border_rays, project
 from synth.light import Stage
+from synth.light.colour import luminance
 from synth.render.interface import Renderer
+from synth.render.normals import normal_map
 from synth.render.silhouettes import Silhouettes
 
 _NEAREST_M = 0.1  # what is nearer, or behind the camera, is not seen
@@ -30,6 +32,8 @@ class RenderedView(Sight):
 
     image: NDArray[np.uint8]  # (rows, cols)
     light: NDArray[np.float32]  # (rows, cols), before it is rounded and clipped, 1 for white
+    colour: NDArray[np.float32] | None  # (rows, cols, 3), red, green and blue likewise
+    normals: NDArray[np.float32] | None  # (rows, cols, 3), in the camera's frame, NaN likewise
     depth_m: Floats  # (rows, cols), NaN where nothing is
 
     def sight(self) -> Sight:
@@ -38,12 +42,22 @@ class RenderedView(Sight):
 
 
 def render_view(
-    renderer: Renderer, stage: Stage, camera: RenderCamera, pose: Pose, *, supersample: int
+    renderer: Renderer,
+    stage: Stage,
+    camera: RenderCamera,
+    pose: Pose,
+    *,
+    supersample: int,
+    normals: bool = False,
 ) -> RenderedView:
-    """One view; at edges the image is the mean of supersample² samples in each pixel."""
+    """One view; at edges the image is the mean of supersample² samples in each pixel.
+
+    Normals are made where they are asked for, colour where the stage has it.
+    """
     limits_m = depth_limits_m(stage, camera, pose)
     labels, depth_m = renderer.measure(pose, limits_m, None)
-    light = stage.painter.paint(camera, pose, labels, depth_m, supersample=supersample)
+    painted = stage.painter.paint(camera, pose, labels, depth_m, supersample=supersample)
+    light = luminance(painted)
     boxes_px = tuple(_box_px(rock.vertices_m, camera, pose) for rock in stage.rocks)
     silhouettes = Silhouettes(labels, boxes_px)
     for group in _hidden_groups(boxes_px, camera):
@@ -52,6 +66,8 @@ def render_view(
     return RenderedView(
         image=np.rint(255.0 * np.clip(light, 0.0, 1.0)).astype(np.uint8),
         light=light,
+        colour=painted if stage.painter.channels > 1 else None,
+        normals=normal_map(stage, camera, pose) if normals else None,
         depth_m=depth_m,
         labels=labels,
         silhouettes=silhouettes,
@@ -62,9 +78,10 @@ def render_view(
 def render_light(
     renderer: Renderer, stage: Stage, camera: RenderCamera, pose: Pose, *, supersample: int
 ) -> NDArray[np.float32]:
-    """Light of one view alone, (rows, cols), 1 for white."""
+    """Luminance of one view alone, (rows, cols), 1 for white."""
     labels, depth_m = renderer.measure(pose, depth_limits_m(stage, camera, pose), None)
-    return stage.painter.paint(camera, pose, labels, depth_m, supersample=supersample)
+    painted = stage.painter.paint(camera, pose, labels, depth_m, supersample=supersample)
+    return luminance(painted)
 
 
 def depth_limits_m(stage: Stage, camera: RenderCamera, pose: Pose) -> tuple[float, float]:

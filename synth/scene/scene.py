@@ -1,7 +1,7 @@
 """Scene model: a ground, the rocks that lie on it, the camera and its stations."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import msgspec
 import numpy as np
@@ -12,13 +12,14 @@ from synth.camera.trajectories import camera_distance_m, camera_of, stations
 from synth.geometry.mesh import Mesh
 from synth.progress import counted
 from synth.rocks import RockModel, quarry
+from synth.scene.finish import Finish, draw_finishes
 from synth.scene.ground import Terrain, make_ground
 from synth.scene.placement import PlacementArea, frustum, refuse_crowd, scatter, strew
 from synth.scene.population import draw_diameters_m
 from synth.scene.settling import buried_fraction, settle, shortest_turn
-from synth.spec import SceneSpec, dataset_of
+from synth.spec import SceneSpec, dataset_of, tints_of
 
-_LYING, _GROUND, _POPULATION, _SHARED = 1, 2, 3, 12  # children of the scene's seed
+_LYING, _GROUND, _POPULATION, _SHARED, _FINISH = 1, 2, 3, 12, 31  # children of the scene's seed
 _ROOM_M = 0.4  # kept free of a population's rocks round the foot of each station
 _CROWD, _SAMPLE = 24, 12  # more rocks than the first are tried with the second before all are made
 _FOOT = 0.15  # vertices in this lowest share of a rock's height are its foot
@@ -34,6 +35,7 @@ class PlacedRock:
     albedo: float
     mesh: Mesh  # in the world
     buried_fraction: float = 0.0  # share of its volume below the ground
+    finish: Finish = field(default_factory=Finish)
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,9 +90,12 @@ def build_scene(spec: SceneSpec, index: int) -> SceneModel:
         places_m = strew(meshes, spec.population, keep_out_m=_feet_m(poses), rng=lying)
     albedos = rng.uniform(*spec.rocks.albedo, size=len(meshes))
     burials = lying.uniform(*spec.ground.burial, size=len(meshes))
+    finishes = draw_finishes(tints_of(spec), len(meshes), rng=_child(spec, index, _FINISH))
     placed = tuple(
-        _lay(one, place, ground, burial=burial, albedo=float(albedo))
-        for one, place, burial, albedo in zip(standing, places_m, burials, albedos, strict=True)
+        _lay(one, place, ground, burial=burial, albedo=float(albedo), finish=finish)
+        for one, place, burial, albedo, finish in zip(
+            standing, places_m, burials, albedos, finishes, strict=True
+        )
     )
     return SceneModel(rocks=placed, camera=camera, poses=tuple(poses), ground=ground)
 
@@ -170,6 +175,7 @@ def _lay(
     *,
     burial: float,
     albedo: float,
+    finish: Finish,
 ) -> PlacedRock:
     """Rock lying at a place: on the plane, in ripples to the mean depth of its foot.
 
@@ -192,9 +198,10 @@ def _lay(
         rock=rock,
         model_to_world=turn,
         position_m=position_m,
-        albedo=albedo,
+        albedo=min(1.0, albedo * finish.brightness),
         mesh=mesh,
         buried_fraction=buried_fraction(
             mesh, np.where(clearances_m > -1e-9, np.maximum(clearances_m, 0.0), clearances_m)
         ),
+        finish=finish,
     )

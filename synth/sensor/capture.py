@@ -1,5 +1,7 @@
 """Capture of one view by the sensor of a spec."""
 
+from dataclasses import replace
+
 from synth.camera.camera import PRESETS, Pose, RenderCamera
 from synth.errors import SpecError
 from synth.light import Stage
@@ -8,7 +10,7 @@ from synth.render.view import RenderedView
 from synth.sensor.exposure import Picture, take_picture
 from synth.sensor.seeds import Use, stream
 from synth.sensor.sensor import Capture, Sensor, SensorInput, find_sensor
-from synth.spec import SceneSpec
+from synth.spec import SceneSpec, image_of
 from synth.spec.registry import options_of
 from synth.spec.sensor import SensorSpec
 
@@ -41,7 +43,8 @@ def capture_view(
 ) -> Capture:
     """Capture of view `number` of a scene, a function of spec and numbers.
 
-    Each use of chance has a stream of its own, so that range noise does not change the image.
+    Each use of chance has a stream of its own, so that range noise does not change the image. A
+    view in colour is taken a second time, by a colour camera in the same place.
 
     Raises:
         SpecError: the sensor's capture is not of its own folders or of the view's size.
@@ -66,7 +69,10 @@ def capture_view(
         )
     )
     _check(capture, sensor, view)
-    return capture
+    if view.colour is None or not image_of(spec).colour:
+        return capture
+    chance = stream(Use.COLOUR, seed=spec.seed, scene=scene, view=number)
+    return replace(capture, colour=take_picture(view.colour, spec.sensor, rng=chance))
 
 
 def _check(capture: Capture, sensor: Sensor, view: RenderedView) -> None:

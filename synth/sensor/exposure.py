@@ -14,7 +14,7 @@ _SHIFT = 4  # 12 bits stand in the upper bits of 16, so that white is white to a
 def take_picture(
     light: NDArray[np.floating], sensor: SensorSpec, *, rng: np.random.Generator
 ) -> Picture:
-    """Grey levels, (rows, cols), of light where 1 is white.
+    """Levels, (rows, cols) or (rows, cols, 3) in R, G, B, of light where 1 is white.
 
     A pixel collects Poisson(L e N) electrons of the full well N at exposure e, plus normal read
     noise; level = round((2^bits − 1) electrons/N), clipped. 12 bits are returned times 16, in
@@ -32,8 +32,18 @@ def take_picture(
     picture: NDArray[np.uint8] = levels.astype(np.uint8)
     if sensor.jpeg_quality is None:
         return picture
-    _, data = cv2.imencode(".jpg", picture, [cv2.IMWRITE_JPEG_QUALITY, sensor.jpeg_quality])
-    return np.asarray(cv2.imdecode(data, cv2.IMREAD_GRAYSCALE), dtype=np.uint8)
+    return _compressed(picture, sensor.jpeg_quality)
+
+
+def _compressed(picture: NDArray[np.uint8], quality: int) -> NDArray[np.uint8]:
+    """Picture compressed as JPEG and opened again."""
+    coloured = picture.ndim == 3
+    stored = np.ascontiguousarray(picture[..., ::-1]) if coloured else picture
+    _, data = cv2.imencode(".jpg", stored, [cv2.IMWRITE_JPEG_QUALITY, quality])
+    opened = np.asarray(
+        cv2.imdecode(data, cv2.IMREAD_COLOR if coloured else cv2.IMREAD_GRAYSCALE), dtype=np.uint8
+    )
+    return np.ascontiguousarray(opened[..., ::-1]) if coloured else opened
 
 
 def eight_bits(picture: Picture) -> NDArray[np.uint8]:

@@ -12,6 +12,7 @@ class Use(IntEnum):
     PICTURE = 601
     RIGHT_PICTURE = 602
     DISPARITY = 603
+    COLOUR = 604
 
 
 def stream(use: Use | str, *, seed: int, scene: int, view: int) -> np.random.Generator:

@@ -21,6 +21,8 @@ from synth.spec.sensor import SENSORS
 # Folders of a scene that every dataset has; a sensor's own have other names.
 COMMON_FOLDERS = (
     "gray",
+    "rgb",
+    "normals",
     "depth",
     "depth_true",
     "range",
@@ -38,6 +40,7 @@ class Capture:
     picture: Picture  # (rows, cols), 8 bits, or 12 in the upper bits of 16
     depth_m: Floats  # (rows, cols), z-depth of the pixels' centres, NaN in holes
     pictures: Mapping[str, Picture] = field(default_factory=dict)  # further ones, by folder
+    colour: Picture | None = None  # (rows, cols, 3) red, green, blue; never the sensor's own
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,10 +9,12 @@ from synth.spec.calibration import CalibrationSpec
 from synth.spec.convert import convert_table
 from synth.spec.dataset import DatasetSpec
 from synth.spec.ground import GroundSpec
+from synth.spec.image import ImageSpec
 from synth.spec.population import PopulationSpec
 from synth.spec.rocks import RocksSpec
 from synth.spec.sensor import NoiseSpec, SensorSpec
 from synth.spec.surface import SurfaceSpec
+from synth.spec.tints import TintsSpec
 from synth.spec.toml import read_toml
 from synth.spec.truth import TruthSpec
 from synth.spec.view import CameraSpec, SunSpec, ViewsSpec
@@ -39,6 +41,8 @@ class SceneSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     sensor: SensorSpec = SensorSpec()
     # not written to manifests unless they are given:
     calibration: CalibrationSpec | UnsetType = UNSET
+    image: ImageSpec | UnsetType = UNSET
+    tints: TintsSpec | UnsetType = UNSET
     dataset: DatasetSpec | UnsetType = UNSET
     truth: TruthSpec | UnsetType = UNSET
 
@@ -58,6 +62,16 @@ def dataset_of(spec: SceneSpec) -> DatasetSpec:
 def truth_of(spec: SceneSpec) -> TruthSpec:
     """Further truth that is asked for: the spec's, or none."""
     return TruthSpec() if isinstance(spec.truth, UnsetType) else spec.truth
+
+
+def image_of(spec: SceneSpec) -> ImageSpec:
+    """Parameters of the pictures: the spec's, or the defaults."""
+    return ImageSpec() if isinstance(spec.image, UnsetType) else spec.image
+
+
+def tints_of(spec: SceneSpec) -> TintsSpec | UnsetType:
+    """Colours of surfaces: the spec's, or the defaults where it asks for colour pictures."""
+    return TintsSpec() if spec.tints is UNSET and image_of(spec).colour else spec.tints
 
 
 def load_spec(path: Path) -> SceneSpec:

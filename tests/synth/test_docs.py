@@ -13,7 +13,9 @@ from synth.dataset.generate import generate_dataset
 from synth.rocks import quarry
 from synth.spec import SceneSpec, convert_spec
 from synth.spec.dataset import DatasetSpec
+from synth.spec.image import ImageSpec
 from synth.spec.rocks import FAMILIES, RocksSpec
+from synth.spec.tints import TintsSpec
 from synth.spec.truth import TruthSpec
 
 ROOT = Path(__file__).parents[2]
@@ -25,6 +27,7 @@ SPEC = {
     "camera": {"preset": "imp", "distortion": [-0.02, 0.0, 0.0, 0.0, 0.0]},
     "views": {"count": 2},
     "noise": {"kind": "sgm"},
+    "image": {"colour": True, "normals": True},
 }
 
 
@@ -79,6 +82,7 @@ def defaults_of(table):
         ("`[population]`", [DEFAULT.population]),
         ("`[ground]`", [DEFAULT.ground]),
         ("`[surface]` and `[sun]`", [DEFAULT.surface, DEFAULT.sun]),
+        ("`[image]` and `[tints]`", [ImageSpec(), TintsSpec()]),
         ("`[camera]` and `[views]`", [DEFAULT.camera, DEFAULT.views]),
     ],
 )

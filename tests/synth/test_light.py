@@ -90,8 +90,8 @@ def test_level_ground_has_the_same_light_at_any_sun(elevation_deg):
     one = np.ones(1, dtype=np.float32)
     incidence = one * np.float32(towards_sun(sun)[2])
     # float32 steps by 6e-8.
-    assert light(one, incidence, one, sun, SurfaceSpec())[0] == pytest.approx(1.0, rel=1e-6)
-    shaded = light(one, 0 * one, one, sun, SurfaceSpec())[0]
+    assert sum(light(one, incidence, one, sun, SurfaceSpec()))[0] == pytest.approx(1.0, rel=1e-6)
+    shaded = sum(light(one, 0 * one, one, sun, SurfaceSpec()))[0]
     assert shaded == pytest.approx(sun.ambient, rel=1e-6)
 
 

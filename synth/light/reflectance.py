@@ -1,4 +1,4 @@
-"""Albedo of surfaces, with texture and dust."""
+"""Reflectance of surfaces, with texture and dust."""
 
 from collections.abc import Callable, Sequence
 
@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from synth.arrays import Singles
 from synth.light.body import Body
+from synth.light.colour import LUMINANCE, Appearance
 from synth.light.samples import Indices, Samples
 from synth.light.texture import pattern, wrapped
 from synth.spec.surface import SurfaceSpec
@@ -14,32 +15,58 @@ from synth.spec.surface import SurfaceSpec
 _MAX_PARTS = 4  # of a slanted footprint
 
 
-class Albedo:
-    """Albedo of a scene's bodies; it moves and turns with the rocks."""
+class Reflectance:
+    """Linear reflectance of a scene's bodies; it moves and turns with the rocks."""
 
-    def __init__(self, rocks: Sequence[Body], ground: Sequence[Body], surface: SurfaceSpec) -> None:
+    def __init__(
+        self,
+        rocks: Sequence[Body],
+        ground: Sequence[Body],
+        surface: SurfaceSpec,
+        appearance: Appearance | None = None,
+    ) -> None:
         bodies = [*rocks, *ground]
         self._rocks, self._surface = len(rocks), surface
-        self._means = np.array([body.albedo for body in bodies], dtype=np.float32)
+        self._painted = [number for number, body in enumerate(bodies) if body.paint is not None]
+        self._bodies = bodies
+        self._means = _channels(bodies, appearance)
+        dust = np.ones(1) if appearance is None else appearance.dust
+        self._dust = (surface.ground_albedo * dust).astype(np.float32)
         self._turns = np.stack([body.model_to_world for body in bodies]).astype(np.float32)
         self._origins_m = np.stack([body.position_m for body in bodies]).astype(np.float32)
 
     def at(self, samples: Samples) -> Singles:
-        """Albedo at samples, (n,): the body's, its texture, and dust on what faces up.
+        """Reflectance at samples, (n, k): k = 3 for R, G, B, or 1, their luminance.
 
         ρ = ρ_body (1 + contrast × texture); dust of the ground's albedo covers the share
         dust × (n_z − 0.4)/0.6 of a rock, between 0 and 1.
         """
         surface = self._surface
-        albedo = self._means[samples.body]
+        found = self._means[samples.body]
+        for number in self._painted:
+            here = np.flatnonzero(samples.body == number)
+            found[here] *= self._paint(number, samples, here)
         rocky = np.flatnonzero(samples.body < self._rocks)
         if surface.dust > 0.0:
             cover = surface.dust * np.clip((samples.normals[rocky, 2] - 0.4) / 0.6, 0.0, 1.0)
-            albedo[rocky] += cover * (np.float32(surface.ground_albedo) - albedo[rocky])
+            found[rocky] += cover[:, None] * (self._dust - found[rocky])
         if surface.contrast == 0.0:
-            return albedo
-        texture = self._texture(samples)
-        return np.asarray(albedo * np.maximum(1.0 + np.float32(surface.contrast) * texture, 0.1))
+            return found
+        texture = self._texture(samples)[:, None]
+        return np.asarray(found * np.maximum(1.0 + np.float32(surface.contrast) * texture, 0.1))
+
+    def _paint(self, number: int, samples: Samples, here: Indices) -> Singles:
+        """Factor of a body's own paint at some of the samples, (m, k)."""
+        body = self._bodies[number]
+        if body.paint is None or not len(here):
+            return np.ones((len(here), 1), dtype=np.float32)
+        own_m = (samples.points_m[here] - self._origins_m[number]) @ self._turns[number]
+        side_m = samples.width_m[here] * np.sqrt(samples.stretch[here])
+        factor = body.paint(own_m, side_m)
+        if self._means.shape[1] == 1:
+            weights = (LUMINANCE * body.tint).astype(np.float32)
+            return np.asarray((factor @ weights)[:, None])
+        return factor
 
     def _texture(self, samples: Samples) -> Singles:
         """Texture at samples, (n,), averaged over their footprints.
@@ -81,6 +108,14 @@ class Albedo:
             parts[rocky],
         )
         return texture
+
+
+def _channels(bodies: Sequence[Body], appearance: Appearance | None) -> Singles:
+    """Bodies' mean reflectance, (bodies, 1) grey or (bodies, 3) in colour."""
+    albedo = np.array([body.albedo for body in bodies], dtype=np.float32)[:, None]
+    if appearance is None:
+        return albedo
+    return albedo * np.stack([body.tint for body in bodies]).astype(np.float32)
 
 
 def _mean_along(

@@ -64,7 +64,7 @@ def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -
     sensor = sensor_of(spec)
     begin_scene(scene_number(index))
     scene = build_scene(spec, index)
-    stage = spec_stage(spec, scene)
+    stage = spec_stage(spec, index, scene)
     renderer = open_renderer(backend, stage, scene.camera)
     scale_mm = depth_scale_mm(spec)
     folder = out / PARTIAL / f"{scene_number(index)}.{os.getpid()}"

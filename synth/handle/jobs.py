@@ -71,7 +71,7 @@ def render(spec: SceneSpec, index: int, number: int, model: bytes) -> ViewParts:
     """
     sensor_of(spec)
     scene: SceneModel = pickle.loads(model)
-    stage = spec_stage(spec, scene)
+    stage = spec_stage(spec, index, scene)
     renderer = open_renderer(choose_backend(spec.renderer), stage, scene.camera)
     view, capture = capture_frame(spec, index, number, scene=scene, stage=stage, renderer=renderer)
     scale_mm = depth_scale_mm(spec)

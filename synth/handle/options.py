@@ -42,6 +42,7 @@ class SceneOptions(TypedDict, total=False):
     sun: Table
     sensor: Table
     calibration: Table
+    light: Table
     tints: Table
     image: Table
     dataset: Table

@@ -18,6 +18,7 @@ class Appearance:
     sky: Floats
     ground: Floats
     dust: Floats
+    wetness: float = 0.0  # 0 dry … 1 under a film of water
 
 
 def tint(rgb: tuple[float, float, float] | Floats) -> Floats:

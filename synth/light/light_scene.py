@@ -6,6 +6,7 @@ from synth.light.body import Body
 from synth.light.colour import Appearance, tint
 from synth.light.lit_scene import Stage
 from synth.light.painter import Painter
+from synth.light.rock_paint import rock_paint
 from synth.scene.scene import SceneModel
 from synth.spec.surface import SurfaceSpec
 from synth.spec.view import SunSpec
@@ -30,6 +31,7 @@ def light_scene(
             model_to_world=placed.model_to_world,
             position_m=placed.position_m,
             tint=tint(placed.finish.rgb),
+            paint=rock_paint(placed.finish, placed.albedo * tint(placed.finish.rgb)),
         )
         for placed in scene.rocks
     )

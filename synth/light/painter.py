@@ -14,11 +14,12 @@ from synth.arrays import Floats, Singles
 from synth.camera.camera import Pose, RenderCamera
 from synth.light.body import Body
 from synth.light.colour import Appearance
-from synth.light.photometry import EXPOSURE, SKY, light, towards_sun
+from synth.light.photometry import EXPOSURE, SKY, light, sun_strength, towards_sun
 from synth.light.rays import Surfaces, directions
 from synth.light.reflectance import Reflectance
 from synth.light.samples import Samples, stretch, width_m
 from synth.light.shade import ShadowMap
+from synth.light.wetness import highlight
 from synth.spec.surface import SurfaceSpec
 from synth.spec.view import SunSpec
 
@@ -51,6 +52,7 @@ class Painter:
         self._plane = None if plane_normal is None else plane_normal.astype(np.float32)
         self._towards_sun = towards_sun(sun).astype(np.float32)
         self._reflectance = Reflectance(rocks, ground, surface, appearance)
+        self._wetness = 0.0 if appearance is None else appearance.wetness
         self._sun_colour, self._sky_colour = (
             np.ones((2, 1), dtype=np.float32)
             if appearance is None
@@ -194,7 +196,18 @@ class Painter:
         sky, direct = light(normals[:, 2], incidence, emission, self._sun, self._surface)
         arriving = sky[:, None] * self._sky_colour + direct[:, None] * self._sun_colour
         given_back = np.float32(EXPOSURE) * arriving * self._reflectance.at(samples)
+        if self._wetness > 0.0:
+            given_back += self._highlights(samples, incidence)[:, None] * self._sun_colour
         return sky + direct, given_back
+
+    def _highlights(self, samples: Samples, incidence: Singles) -> Singles:
+        """Sun's highlights in wet surfaces, (n,); none in shadow."""
+        found = np.zeros(len(incidence), dtype=np.float32)
+        lit = np.flatnonzero(incidence > 0.0)
+        sights = -samples.directions[lit]
+        sights = sights / np.linalg.norm(sights, axis=1, keepdims=True)
+        found[lit] = highlight(samples.normals[lit], sights, self._towards_sun)
+        return np.float32(self._wetness * sun_strength(self._sun)) * found
 
 
 def _jumps(bright: Singles, labels: NDArray[np.uint16]) -> NDArray[np.bool_]:

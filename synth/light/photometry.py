@@ -29,6 +29,11 @@ def towards_sun(sun: SunSpec) -> Floats:
     )
 
 
+def sun_strength(sun: SunSpec) -> float:
+    """Brightness that the sun alone gives to a white Lambertian surface that faces it."""
+    return EXPOSURE * (1.0 - sun.ambient) / max(float(towards_sun(sun)[2]), _MIN_SINE)
+
+
 def lunar_share(surface: SurfaceSpec) -> float:
     """Weight L of Lommel–Seeliger in the surface's law."""
     return {"lambert": 0.0, "lommel-seeliger": 1.0}.get(surface.law, surface.lunar_share)

@@ -10,6 +10,7 @@ from synth.light.body import Body
 from synth.light.colour import LUMINANCE, Appearance
 from synth.light.samples import Indices, Samples
 from synth.light.texture import pattern, wrapped
+from synth.light.wetness import wetted
 from synth.spec.surface import SurfaceSpec
 
 _MAX_PARTS = 4  # of a slanted footprint
@@ -30,6 +31,7 @@ class Reflectance:
         self._painted = [number for number, body in enumerate(bodies) if body.paint is not None]
         self._bodies = bodies
         self._means = _channels(bodies, appearance)
+        self._wetness = 0.0 if appearance is None else appearance.wetness
         dust = np.ones(1) if appearance is None else appearance.dust
         self._dust = (surface.ground_albedo * dust).astype(np.float32)
         self._turns = np.stack([body.model_to_world for body in bodies]).astype(np.float32)
@@ -50,10 +52,10 @@ class Reflectance:
         if surface.dust > 0.0:
             cover = surface.dust * np.clip((samples.normals[rocky, 2] - 0.4) / 0.6, 0.0, 1.0)
             found[rocky] += cover[:, None] * (self._dust - found[rocky])
-        if surface.contrast == 0.0:
-            return found
-        texture = self._texture(samples)[:, None]
-        return np.asarray(found * np.maximum(1.0 + np.float32(surface.contrast) * texture, 0.1))
+        if surface.contrast > 0.0:
+            texture = self._texture(samples)[:, None]
+            found = found * np.maximum(1.0 + np.float32(surface.contrast) * texture, 0.1)
+        return found if self._wetness == 0.0 else wetted(np.minimum(found, 1.0), self._wetness)
 
     def _paint(self, number: int, samples: Samples, here: Indices) -> Singles:
         """Factor of a body's own paint at some of the samples, (m, k)."""

@@ -12,14 +12,21 @@ from synth.camera.trajectories import camera_distance_m, camera_of, stations
 from synth.geometry.mesh import Mesh
 from synth.progress import counted
 from synth.rocks import RockModel, quarry
-from synth.scene.finish import Finish, draw_finishes
+from synth.scene.finish import Finish, draw_finishes, draw_wetness
 from synth.scene.ground import Terrain, make_ground
 from synth.scene.placement import PlacementArea, frustum, refuse_crowd, scatter, strew
 from synth.scene.population import draw_diameters_m
 from synth.scene.settling import buried_fraction, settle, shortest_turn
 from synth.spec import SceneSpec, dataset_of, tints_of
 
-_LYING, _GROUND, _POPULATION, _SHARED, _FINISH = 1, 2, 3, 12, 31  # children of the scene's seed
+_LYING, _GROUND, _POPULATION, _SHARED, _FINISH, _WETNESS = (
+    1,
+    2,
+    3,
+    12,
+    31,
+    33,
+)  # children of the scene's seed
 _ROOM_M = 0.4  # kept free of a population's rocks round the foot of each station
 _CROWD, _SAMPLE = 24, 12  # more rocks than the first are tried with the second before all are made
 _FOOT = 0.15  # vertices in this lowest share of a rock's height are its foot
@@ -56,6 +63,7 @@ class SceneModel:
     camera: RenderCamera
     poses: tuple[Pose, ...]
     ground: Terrain
+    wetness: float = 0.0  # 0 dry … 1 under a film of water
 
 
 def build_scene(spec: SceneSpec, index: int) -> SceneModel:
@@ -97,7 +105,13 @@ def build_scene(spec: SceneSpec, index: int) -> SceneModel:
             standing, places_m, burials, albedos, finishes, strict=True
         )
     )
-    return SceneModel(rocks=placed, camera=camera, poses=tuple(poses), ground=ground)
+    return SceneModel(
+        rocks=placed,
+        camera=camera,
+        poses=tuple(poses),
+        ground=ground,
+        wetness=draw_wetness(tints_of(spec), rng=_child(spec, index, _WETNESS)),
+    )
 
 
 def _child(spec: SceneSpec, index: int, key: int) -> np.random.Generator:

@@ -7,6 +7,7 @@ from synth.errors import SpecError
 from synth.light import Stage
 from synth.render.interface import Renderer
 from synth.render.view import RenderedView
+from synth.sensor.development import Development, draw_development
 from synth.sensor.exposure import Picture, take_picture
 from synth.sensor.seeds import Use, stream
 from synth.sensor.sensor import Capture, Sensor, SensorInput, find_sensor
@@ -51,9 +52,10 @@ def capture_view(
     """
     sensor = sensor_of(spec)
     picture: Picture = view.image
-    if spec.sensor != SensorSpec():
+    development = draw_development(spec, scene=scene, view=number)
+    if spec.sensor != SensorSpec() or development != Development():
         chance = stream(Use.PICTURE, seed=spec.seed, scene=scene, view=number)
-        picture = take_picture(view.light, spec.sensor, rng=chance)
+        picture = take_picture(view.light, spec.sensor, rng=chance, development=development)
     capture = sensor.capture(
         SensorInput(
             view=view,
@@ -65,6 +67,7 @@ def capture_view(
             number=number,
             stage=stage,
             renderer=renderer,
+            development=development,
             options=options_of("sensor", sensor, spec.noise.options),
         )
     )
@@ -72,7 +75,8 @@ def capture_view(
     if view.colour is None or not image_of(spec).colour:
         return capture
     chance = stream(Use.COLOUR, seed=spec.seed, scene=scene, view=number)
-    return replace(capture, colour=take_picture(view.colour, spec.sensor, rng=chance))
+    colour = take_picture(view.colour, spec.sensor, rng=chance, development=development)
+    return replace(capture, colour=colour)
 
 
 def _check(capture: Capture, sensor: Sensor, view: RenderedView) -> None:

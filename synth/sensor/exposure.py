@@ -4,29 +4,36 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from synth.sensor.development import Development, blurred, toned
 from synth.spec.sensor import SensorSpec
 
 Picture = NDArray[np.uint8] | NDArray[np.uint16]
 
+_PLAIN = Development()
 _SHIFT = 4  # 12 bits stand in the upper bits of 16, so that white is white to any reader
 
 
 def take_picture(
-    light: NDArray[np.floating], sensor: SensorSpec, *, rng: np.random.Generator
+    light: NDArray[np.float32],
+    sensor: SensorSpec,
+    *,
+    rng: np.random.Generator,
+    development: Development = _PLAIN,
 ) -> Picture:
     """Levels, (rows, cols) or (rows, cols, 3) in R, G, B, of light where 1 is white.
 
     A pixel collects Poisson(L e N) electrons of the full well N at exposure e, plus normal read
     noise; level = round((2^bits − 1) electrons/N), clipped. 12 bits are returned times 16, in
-    16 bits. JPEG's loss is in the levels: the picture is compressed and opened again.
+    16 bits. JPEG's loss is in the levels: the picture is compressed and opened again. Between
+    light and noise stands the lens's blur, between noise and levels the tone curve.
     """
-    exposed = sensor.exposure * light.astype(np.float64)
+    exposed = sensor.exposure * development.gain * blurred(light, development).astype(np.float64)
     if sensor.full_well_e is not None:
         electrons = rng.poisson(sensor.full_well_e * exposed).astype(np.float64)
         electrons += rng.normal(0.0, sensor.read_noise_e, size=light.shape)
         exposed = electrons / sensor.full_well_e
     white = 2**sensor.bits - 1
-    levels = np.rint(np.clip(exposed, 0.0, 1.0) * white)
+    levels = np.rint(toned(exposed, development) * white)
     if sensor.bits > 8:
         return np.asarray(levels * 2**_SHIFT, dtype=np.uint16)
     picture: NDArray[np.uint8] = levels.astype(np.uint8)

@@ -13,6 +13,7 @@ class Use(IntEnum):
     RIGHT_PICTURE = 602
     DISPARITY = 603
     COLOUR = 604
+    DEVELOPMENT = 605
 
 
 def stream(use: Use | str, *, seed: int, scene: int, view: int) -> np.random.Generator:

@@ -7,12 +7,13 @@ from typing import Any
 import numpy as np
 from msgspec import Struct
 
-from synth.arrays import Floats
+from synth.arrays import Floats, Singles
 from synth.camera.camera import Pose, RenderCamera
 from synth.errors import SpecError
 from synth.light import Stage
 from synth.render.interface import Renderer
 from synth.render.view import RenderedView, render_light
+from synth.sensor.development import Development, blurred, toned
 from synth.sensor.exposure import Picture, take_picture
 from synth.sensor.seeds import Use, stream
 from synth.spec import SceneSpec
@@ -56,6 +57,7 @@ class SensorInput:
     number: int  # of the view in its scene
     stage: Stage
     renderer: Renderer
+    development: Development  # of all pictures of this view
     options: Any  # of the sensor's own struct; None where it has none
 
     def random(self, use: Use | str) -> np.random.Generator:
@@ -71,7 +73,17 @@ class SensorInput:
             pose,
             supersample=self.spec.camera.supersample,
         )
-        return take_picture(light, self.spec.sensor, rng=self.random(use))
+        return take_picture(
+            light, self.spec.sensor, rng=self.random(use), development=self.development
+        )
+
+    def exposed_light(self) -> Singles:
+        """Light of the view as exposed and toned, without noise, (rows, cols), 1 for white."""
+        light = blurred(self.view.light, self.development)
+        exposed = self.spec.sensor.exposure * self.development.gain * light
+        if self.development.tone == "linear":
+            return exposed
+        return toned(exposed.astype(np.float64), self.development).astype(np.float32)
 
 
 @dataclass(frozen=True, eq=False)

@@ -81,7 +81,7 @@ def stereo_depth_m(shot: SensorInput) -> Floats:
     """Z-depth of a view, (rows, cols), by the error model of its preset's stereo camera."""
     return modelled_depth_m(
         shot.view.depth_m,
-        shot.spec.sensor.exposure * shot.view.light,
+        shot.exposed_light(),
         rig_of(shot.spec.camera.preset),
         shot.spec.noise,
         rng=shot.random(Use.DISPARITY),

@@ -10,6 +10,7 @@ from synth.spec.convert import convert_table
 from synth.spec.dataset import DatasetSpec
 from synth.spec.ground import GroundSpec
 from synth.spec.image import ImageSpec
+from synth.spec.light import LightSpec
 from synth.spec.population import PopulationSpec
 from synth.spec.rocks import RocksSpec
 from synth.spec.sensor import NoiseSpec, SensorSpec
@@ -42,6 +43,7 @@ class SceneSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     # not written to manifests unless they are given:
     calibration: CalibrationSpec | UnsetType = UNSET
     image: ImageSpec | UnsetType = UNSET
+    light: LightSpec | UnsetType = UNSET
     tints: TintsSpec | UnsetType = UNSET
     dataset: DatasetSpec | UnsetType = UNSET
     truth: TruthSpec | UnsetType = UNSET
@@ -67,6 +69,11 @@ def truth_of(spec: SceneSpec) -> TruthSpec:
 def image_of(spec: SceneSpec) -> ImageSpec:
     """Parameters of the pictures: the spec's, or the defaults."""
     return ImageSpec() if isinstance(spec.image, UnsetType) else spec.image
+
+
+def light_of(spec: SceneSpec) -> LightSpec:
+    """Ranges and colours of the light: the spec's, or none."""
+    return LightSpec() if isinstance(spec.light, UnsetType) else spec.light
 
 
 def tints_of(spec: SceneSpec) -> TintsSpec | UnsetType:

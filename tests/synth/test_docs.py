@@ -14,6 +14,7 @@ from synth.rocks import quarry
 from synth.spec import SceneSpec, convert_spec
 from synth.spec.dataset import DatasetSpec
 from synth.spec.image import ImageSpec
+from synth.spec.light import LightSpec
 from synth.spec.rocks import FAMILIES, RocksSpec
 from synth.spec.tints import TintsSpec
 from synth.spec.truth import TruthSpec
@@ -82,7 +83,7 @@ def defaults_of(table):
         ("`[population]`", [DEFAULT.population]),
         ("`[ground]`", [DEFAULT.ground]),
         ("`[surface]` and `[sun]`", [DEFAULT.surface, DEFAULT.sun]),
-        ("`[image]` and `[tints]`", [ImageSpec(), TintsSpec()]),
+        ("`[image]`, `[tints]` and `[light]`", [ImageSpec(), TintsSpec(), LightSpec()]),
         ("`[camera]` and `[views]`", [DEFAULT.camera, DEFAULT.views]),
     ],
 )

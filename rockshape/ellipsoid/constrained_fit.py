@@ -52,6 +52,7 @@ def fit_held_ellipsoid(
     silhouette: NDArray[np.float64] | None = None,
     ground: Resting | None = None,
     rank: NDArray[np.float64] | None = None,
+    near: Ellipsoid | None = None,
 ) -> HeldEllipsoid | None:
     """Ellipsoid that fits the points, touches the outline's rays and rests on the ground.
 
@@ -68,8 +69,9 @@ def fit_held_ellipsoid(
     seeds than the benchmark's. Without silhouette or ground their terms are left out, and one side
     of range alone says little of the far side.
 
-    Levenberg-Marquardt with the analytic Jacobian from three depths; a half-axis stays between
-    0.05 and 4 times the size, `bounded` where one is at the end. A buried rock is taken for one
+    Levenberg-Marquardt with the analytic Jacobian from three depths, or from `near` alone, the
+    ellipsoid of nearly the same points; a half-axis stays between 0.05 and 4 times the size,
+    `bounded` where one is at the end. A buried rock is taken for one
     that rests: the ground then makes it flatter than it is.
 
     Of more than 600 points those of the lowest rank (n,) are taken, so that a few points more or
@@ -99,7 +101,8 @@ def fit_held_ellipsoid(
         offset=0.0 if ground is None else (ground.offset_m - float(ground.normal @ middle)) / size,
     )
     bounds = (float(np.log(SMALLEST)), float(np.log(LARGEST)))
-    best = _search(problem, bounds)
+    start = _nearest_start(problem, bounds) if near is None else _state_of(near, middle, size, bounds)
+    best = descend(problem, start, bounds, enough=SETTLED)
     unit, log_axes = best.state.ellipsoid(), best.state.log_axes
     return HeldEllipsoid(
         ellipsoid=Ellipsoid(
@@ -202,12 +205,22 @@ def _trust(
     return np.asarray((GIVE_UP / (spread * (1 + level * level))) ** 2)
 
 
-def _search(problem: _Held, bounds: Bounds) -> Descent:
-    """The lowest of the starts on a sketch, then descended on all."""
+def _nearest_start(problem: _Held, bounds: Bounds) -> State:
+    """Where the lowest of the descents from several starts ends, on fewer points and rays."""
     sketch = problem.sketch()
     runs = [descend(sketch, start, bounds, enough=SKETCHED) for start in _starts(problem)]
-    nearest = min(runs, key=lambda run: run.cost).state
-    return descend(problem, nearest, bounds, enough=SETTLED)
+    return min(runs, key=lambda run: run.cost).state
+
+
+def _state_of(
+    ellipsoid: Ellipsoid, middle: NDArray[np.float64], size: float, bounds: Bounds
+) -> State:
+    """State of an ellipsoid in lengths over the size from the middle (3,), within bounds."""
+    return State(
+        centre=(ellipsoid.centre_m - middle) / size,
+        log_axes=np.clip(np.log(ellipsoid.half_axes_m / size), *bounds),
+        rotation=ellipsoid.axes.T,
+    )
 
 
 def _starts(problem: _Held) -> list[State]:

@@ -14,7 +14,7 @@ MAX_SHARE = 0.1  # of the points: more of them are the rock's own shape
 MAX_ROUNDS = 6
 HIDDEN = -0.3  # cosine of the normal and the way to the camera below which no point can be seen
 
-Fit = Callable[[NDArray[np.bool_]], HeldEllipsoid | None]
+Fit = Callable[[NDArray[np.bool_], Ellipsoid | None], HeldEllipsoid | None]
 
 
 def fit_without_outliers(
@@ -22,13 +22,13 @@ def fit_without_outliers(
 ) -> tuple[HeldEllipsoid | None, NDArray[np.bool_]]:
     """Ellipsoid of the points (n, 3) that lie near its visible side, and which (n,) those are.
 
-    The points are in the camera frame, the camera at the origin; fit takes which of them to use. A
-    point is an outlier where its radial distance is more than six times the robust standard
+    The points are in the camera frame, the camera at the origin; fit takes which of them to use,
+    and the ellipsoid of the round before, from which it starts. A point is an outlier where its radial distance is more than six times the robust standard
     deviation 1.4826 median |e|, or where it lies on the far side. The fit is repeated without
     outliers until they are the same; where they would be more than a tenth, no point is one.
     """
     every = np.ones(len(points_m), dtype=np.bool_)
-    first = found = fit(every)
+    first = found = fit(every, None)
     sound = every
     for _ in range(MAX_ROUNDS):
         if found is None:
@@ -41,7 +41,7 @@ def fit_without_outliers(
         if now.mean() < 1 - MAX_SHARE:
             return first, every
         sound = now
-        found = fit(sound)
+        found = fit(sound, found.ellipsoid)
     return found, sound
 
 

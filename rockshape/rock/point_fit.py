@@ -94,13 +94,14 @@ def fit_points(
             clean_m[known] = np.where(sound[:, None], points_m, np.nan)
         return grazing_rays(mask, corner, camera, clean_m)
 
-    def fit(sound: NDArray[np.bool_]) -> HeldEllipsoid | None:
+    def fit(sound: NDArray[np.bool_], near: Ellipsoid | None) -> HeldEllipsoid | None:
         return fit_held_ellipsoid(
             points_m[sound],
             point_sd_m=0.0 if noise_m is None else noise_m[sound],
             silhouette=rays(sound),
             ground=None if plane is None else Resting(plane.normal, plane.offset_m),
             rank=rank[known][sound],
+            near=near,
         )
 
     found, sound = fit_without_outliers(points_m, fit)

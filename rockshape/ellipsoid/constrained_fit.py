@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.ellipsoid.descent import Descent, descend
+from rockshape.ellipsoid.descent import descend
 from rockshape.ellipsoid.fit import MIN_POINTS
 from rockshape.ellipsoid.half_axes import Ellipsoid
 from rockshape.ellipsoid.parameters import Bounds, State
@@ -24,7 +24,7 @@ ROUGH = 0.08  # of the rock's size: standard deviation of rocks from ellipsoids
 GIVE_UP = 3.0  # standard deviations at which a residual weighs a quarter
 SHARE_POINTS, SHARE_RAYS, SHARE_GROUND = 3.0, 1.0, 0.1
 LARGEST, SMALLEST = 4.0, 0.05  # half-axes over the rock's size
-SKETCHED, SETTLED = 1e-2, 1e-7
+SKETCHED, SETTLED = 3e-2, 1e-7
 DEPTHS = (0.6, 1.0, 1.5)  # of the starts, over the visible size
 
 
@@ -101,7 +101,9 @@ def fit_held_ellipsoid(
         offset=0.0 if ground is None else (ground.offset_m - float(ground.normal @ middle)) / size,
     )
     bounds = (float(np.log(SMALLEST)), float(np.log(LARGEST)))
-    start = _nearest_start(problem, bounds) if near is None else _state_of(near, middle, size, bounds)
+    start = (
+        _nearest_start(problem, bounds) if near is None else _state_of(near, middle, size, bounds)
+    )
     best = descend(problem, start, bounds, enough=SETTLED)
     unit, log_axes = best.state.ellipsoid(), best.state.log_axes
     return HeldEllipsoid(

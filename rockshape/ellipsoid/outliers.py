@@ -12,6 +12,7 @@ from rockshape.numerics.robust_scale import median_scale
 CUT = 6.0  # robust standard deviations
 MAX_SHARE = 0.1  # of the points: more of them are the rock's own shape
 MAX_ROUNDS = 6
+SAME = 1e-3  # of the points: what so few of them pull, the robust fit gives up
 HIDDEN = -0.3  # cosine of the normal and the way to the camera below which no point can be seen
 
 Fit = Callable[[NDArray[np.bool_], Ellipsoid | None], HeldEllipsoid | None]
@@ -23,9 +24,10 @@ def fit_without_outliers(
     """Ellipsoid of the points (n, 3) that lie near its visible side, and which (n,) those are.
 
     The points are in the camera frame, the camera at the origin; fit takes which of them to use,
-    and the ellipsoid of the round before, from which it starts. A point is an outlier where its radial distance is more than six times the robust standard
-    deviation 1.4826 median |e|, or where it lies on the far side. The fit is repeated without
-    outliers until they are the same; where they would be more than a tenth, no point is one.
+    and the ellipsoid of the round before to start from. A point is an outlier where its radial
+    distance is more than six times the robust standard deviation 1.4826 median |e|, or where it
+    lies on the far side. The fit is repeated without outliers until all but a thousandth of the
+    points stay what they are; where more than a tenth would be outliers, no point is one.
     """
     every = np.ones(len(points_m), dtype=np.bool_)
     first = found = fit(every, None)
@@ -36,8 +38,8 @@ def fit_without_outliers(
         distance = np.abs(found.ellipsoid.radial_distance_m(points_m))
         now = distance <= CUT * median_scale(distance)
         now &= _facing(found.ellipsoid, points_m) > HIDDEN
-        if (now == sound).all():
-            return found, sound
+        if (now != sound).mean() <= SAME:
+            return found, now
         if now.mean() < 1 - MAX_SHARE:
             return first, every
         sound = now

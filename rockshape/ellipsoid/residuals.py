@@ -10,6 +10,7 @@ from rockshape.ellipsoid.parameters import State
 from rockshape.numerics.arrays import Floats
 
 TINY = 1e-24
+_NEXT, _LAST = np.array([1, 2, 0]), np.array([2, 0, 1])
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,20 +33,19 @@ def points_to_surface(points: Floats, state: State) -> Linearised:
 
 def _radial(own: Floats, state: State) -> Linearised:
     inverse = np.exp(-2 * state.log_axes)
-    square = own * own
-    length = np.sqrt(np.maximum(square.sum(axis=0), TINY))
-    level = np.sqrt(np.maximum(inverse @ square, TINY))
+    both = np.stack([np.ones(3), inverse]) @ (own * own)
+    length, level = np.sqrt(np.maximum(both, TINY))
     share = 1 - 1 / level
 
     def derive() -> Floats:
-        weight = length / level**3
+        weight = length / (level * level * level)
         jacobian = np.empty((9, own.shape[1]))
-        scaled = inverse[:, None] * own
-        heavy = np.multiply(weight, scaled, out=scaled)
+        heavy = inverse[:, None] * own
+        heavy *= weight
         np.multiply(-(share / length), own, out=jacobian[:3])
         jacobian[:3] -= heavy
         np.multiply(-own, heavy, out=jacobian[3:6])
-        cross(heavy, own, out=jacobian[6:])
+        np.multiply(weight, _twisted(own, inverse), out=jacobian[6:])
         return jacobian
 
     return Linearised(residuals=length * share, derive=derive)
@@ -70,16 +70,13 @@ def rays_to_silhouette(directions: Floats, origin: Floats, state: State) -> Line
         # the foot moves along the ray: v is stationary there, |y| is not
         reached = np.maximum((own * own).sum(axis=0), TINY)
         slide = found.residuals * (own * aim).sum(axis=0) / (reached * square)
-        reach = along * beta
-        foot = alpha[:, None] + reach  # the foot over the half-axes
-        slope = scale[:, None] * beta
+        inverse = scale * scale
         moved = np.empty((9, own.shape[1]))
-        moved[:3] = slope
-        np.multiply(2 * beta, foot, out=moved[3:6])
-        # beta/s x start + (alpha + 2 along beta)/s x aim
-        cross(slope, start[:, None], out=moved[6:])
-        moved[6:] += cross(scale[:, None] * (foot + reach), aim)
-        np.negative(moved[6:], out=moved[6:])
+        np.multiply(inverse[:, None], aim, out=moved[:3])
+        np.multiply(2 * beta, alpha[:, None] + along * beta, out=moved[3:6])
+        # start x D aim - (D start + 2 along D aim) x aim, with D = diag(1/s²)
+        np.matmul(_crossing(start) * inverse - _crossing(inverse * start), aim, out=moved[6:])
+        moved[6:] -= 2 * along * _twisted(aim, inverse)
         moved *= slide
         moved += found.jacobian
         return moved
@@ -101,17 +98,18 @@ def lowest_point(normal: Floats, state: State) -> Linearised:
         jacobian[:3, 0] = own
         jacobian[3:6, 0] = -square * own * own / reach
         # R exp([w]): own -> own - w x own
-        cross(own[:, None], (square * own / reach)[:, None], out=jacobian[6:])
+        jacobian[6:, 0] = _crossing(own) @ (square * own / reach)
         return jacobian
 
     return Linearised(residuals=np.array([float(normal @ state.centre) - reach]), derive=derive)
 
 
-def cross(first: Floats, second: Floats, *, out: Floats | None = None) -> Floats:
-    """Cross products (3, n) of columns; numpy's own spends its time on the order of axes."""
-    (a, b, c), (x, y, z) = first, second
-    result = np.empty_like(first) if out is None else out
-    np.subtract(b * z, c * y, out=result[0])
-    np.subtract(c * x, a * z, out=result[1])
-    np.subtract(a * y, b * x, out=result[2])
-    return result
+def _twisted(own: Floats, inverse: Floats) -> Floats:
+    """Cross products D y x y (3, n) of columns y with D = diag(inverse)."""
+    return (inverse[_NEXT] - inverse[_LAST])[:, None] * own[_NEXT] * own[_LAST]
+
+
+def _crossing(vector: Floats) -> Floats:
+    """The matrix (3, 3) that takes y to vector x y."""
+    x, y, z = vector.tolist()
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

@@ -106,7 +106,7 @@ def lowest_point(normal: Floats, state: State) -> Linearised:
 
 def _twisted(own: Floats, inverse: Floats) -> Floats:
     """Cross products D y x y (3, n) of columns y with D = diag(inverse)."""
-    return (inverse[_NEXT] - inverse[_LAST])[:, None] * own[_NEXT] * own[_LAST]
+    return np.asarray((inverse[_NEXT] - inverse[_LAST])[:, None] * own[_NEXT] * own[_LAST])
 
 
 def _crossing(vector: Floats) -> Floats:

@@ -5,10 +5,12 @@ from dataclasses import replace
 
 import msgspec
 import numpy as np
+from msgspec import UnsetType
 
 from synth.arrays import Floats
 from synth.errors import SpecError
 from synth.progress import counted
+from synth.rocks.abrasion import abraded
 from synth.rocks.family import Family, find_family
 from synth.rocks.record import RockModel
 from synth.rocks.relief import with_relief
@@ -113,10 +115,16 @@ def _members(name: str) -> tuple[str, ...]:
 def _form(
     spec: RocksSpec, family: Family, half_axes_m: Floats, rng: np.random.Generator
 ) -> RockModel:
-    """Rock of a family without relief."""
+    """Rock of a family without relief, worn where the spec asks for it.
+
+    Wear draws from a generator of its own, as relief does.
+    """
     if family.draw is None:
         raise SpecError(f"rocks.family: expected one that draws rocks, found {family.name!r}")
-    return family.draw(spec, half_axes_m, rng)
+    rock = family.draw(spec, half_axes_m, rng)
+    if isinstance(spec.abrasion, UnsetType):
+        return rock
+    return abraded(rock, abrasion=rng.spawn(1)[0].uniform(*spec.abrasion))
 
 
 def _rounded(

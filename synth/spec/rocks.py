@@ -27,6 +27,7 @@ Subdivisions = Annotated[int, Meta(ge=4, le=7)]
 Degree = Annotated[int, Meta(ge=1, le=60)]
 Files = Annotated[tuple[str, ...], Meta(max_length=1000)]
 
+_GRADED = ("graded", "sphericity")  # series that hold or turn the rounding
 _DEFAULTS = ("rounded-polyhedron", "auto")  # a family that can be graded, and the series
 
 
@@ -114,6 +115,7 @@ class RocksSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     albedo: RatioRange = (0.42, 0.62)
     spacing: Annotated[float, Meta(ge=1, le=10)] = 1.35  # least distance over the sum of radii
     options: dict[str, Any] | UnsetType = UNSET  # not written to manifests unless it is given
+    abrasion: tuple[Fraction, Fraction] | UnsetType = UNSET  # wear rocks of any family; likewise
 
     def __post_init__(self) -> None:
         """Require ranges in rising order, and a known family that the series and options suit."""
@@ -129,9 +131,16 @@ class RocksSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
             "albedo",
         ):
             check_range(name, getattr(self, name))
+        if not isinstance(self.abrasion, UnsetType):
+            check_range("abrasion", self.abrasion)
         plain = (self.family, self.series) == _DEFAULTS and self.options is UNSET
         series = "graded" if plain else self._checked_series()
         msgspec.structs.force_setattr(self, "series", series)
+        if series in _GRADED and not isinstance(self.abrasion, UnsetType):
+            raise ValueError(
+                f"abrasion: expected none for the series {series!r}, whose rounding is exact, "
+                f"found {list(self.abrasion)}"
+            )
 
     def _checked_series(self) -> Series:
         """The series, `auto` resolved: `graded` where the family can be, else `random`."""

@@ -25,9 +25,12 @@ class DentedOptions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
 
     cuts: tuple[Cuts, Cuts] = (9, 15)  # faces of the convex body
     softness: tuple[Softness, Softness] = (0.02, 0.08)  # edges' radius over the half size
-    dents: tuple[Dents, Dents] = (25, 50)
-    depth: tuple[Depth, Depth] = (0.1, 0.35)  # of a dent, over the radius there
-    width_deg: tuple[Width, Width] = (5.0, 16.0)  # deviation of a dent's bell, seen from within
+    dents: tuple[Dents, Dents] = (40, 80)
+    depth: tuple[Depth, Depth] = (
+        0.12,
+        0.35,
+    )  # of the widest, over the radius there
+    width_deg: tuple[Width, Width] = (6.0, 18.0)  # deviation of a dent's bell, seen from within
     subdivisions: Subdivisions = 6  # 20 × 4^n facets
 
     def __post_init__(self) -> None:
@@ -63,11 +66,12 @@ def make_dented(half_axes_m: Floats, options: DentedOptions, rng: np.random.Gene
     )
     count = int(rng.integers(options.dents[0], options.dents[1] + 1))
     middles = rng.standard_normal((count, 3))
+    widths = rng.uniform(*options.width_deg, size=count)
     surface = Dented(
         core,
         middles=middles / np.linalg.norm(middles, axis=1, keepdims=True),
-        depths=rng.uniform(*options.depth, size=count),
-        widths_rad=np.radians(rng.uniform(*options.width_deg, size=count)),
+        depths=rng.uniform(*options.depth, size=count) * widths / options.width_deg[1],
+        widths_rad=np.radians(widths),
     )
     knobs = {"softness": softness, "dents": float(count)}
     return Made(fitted(surface, half_axes_m), knobs, smooth=True, has_edges=False)

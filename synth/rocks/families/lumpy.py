@@ -23,9 +23,9 @@ Blend = Annotated[float, Meta(ge=0.02, le=0.5)]
 class LumpyOptions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """Lumps of the rocks of the family `lumpy`."""
 
-    lumps: tuple[Lumps, Lumps] = (5, 10)
-    offset: tuple[Offset, Offset] = (0.8, 0.97)  # of a lump's middle, over its radius
-    blend: tuple[Blend, Blend] = (0.02, 0.05)  # how far valleys are filled, over the half size
+    lumps: tuple[Lumps, Lumps] = (6, 12)
+    offset: tuple[Offset, Offset] = (0.75, 0.95)  # of a lump's middle, over its radius
+    blend: tuple[Blend, Blend] = (0.06, 0.14)  # how far valleys are filled, over the half size
     subdivisions: Subdivisions = 6  # 20 × 4^n facets
 
     def __post_init__(self) -> None:

@@ -3,12 +3,13 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from os import PathLike
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rockshape.camera.camera import Camera, PinholeLike, as_camera
+from rockshape.camera.camera import Camera, CameraLike, as_camera
 from rockshape.camera.lens import Lens, as_lens
 from rockshape.errors import InputError
 from rockshape.io import (
@@ -24,6 +25,7 @@ from rockshape.io.files import MAX_PIXELS
 from rockshape.io.pixels import to_grey
 from rockshape.measurement import Measurement
 from rockshape.method import Method
+from rockshape.numerics.array_argument import array_argument
 from rockshape.observation import Observation
 from rockshape.pipeline import measure as measure_observation
 from rockshape.point_grid.points import PointReading, RangeKind, points_from
@@ -42,7 +44,7 @@ def measure(
     range_m: ArrayLike | None = None,
     range_unit: str | None = None,
     right: ArrayLike | None = None,
-    camera: PinholeLike | None = None,
+    camera: CameraLike | None = None,
     labels: ArrayLike | Instances | None = None,
     pieces: Pieces = "split",
     method: str | Method = "robust",
@@ -55,13 +57,14 @@ def measure(
       Observation, as `rockshape.read` returns, which brings its own range and camera. It may be
       left out where range or labels are given.
     - range_m: points (rows, cols, 3) in the camera frame, or z-depth (rows, cols) with a camera;
-      metres. NaN, infinity, a z-depth of 0 and the point (0, 0, 0) are no measurement.
+      metres. NaN, infinity, a z-depth of 0, the point (0, 0, 0) and what is masked are no
+      measurement.
     - range_unit: unit of range_m in place of metres, `mm` or `0.25mm` say; any distance is then
       believed. Without it a median distance below 1 cm or above 200 m is refused.
     - right: right picture of a rectified stereo pair, in place of range; the image is the left one,
       and its camera has `baseline_m` and may have `disparity_offset`, px.
-    - camera: what took the image, any object with fx, fy, cx, cy in pixels. Needed for z-depth;
-      else found from the points.
+    - camera: what took the image, any object or mapping with fx, fy, cx, cy in pixels. Needed for
+      z-depth; else found from the points.
     - labels: rocks outlined already: (rows, cols) of whole numbers, 0 the ground, or Instances.
     - pieces: what becomes of labels with a single value in several pieces, a mask without ids:
       `split` makes each piece a rock, `keep` keeps one rock.
@@ -100,19 +103,21 @@ def observe(
     range_m: ArrayLike | None = None,
     range_unit: str | None = None,
     right: ArrayLike | None = None,
-    camera: PinholeLike | None = None,
+    camera: CameraLike | None = None,
     labels: ArrayLike | Instances | None = None,
 ) -> Observation:
     """Observation of arrays as `measure` takes them; without an image a black one stands for it.
 
     Raises: InputError where the arrays do not fit each other, or there are none.
     """
-    pixels = None if image is None else np.asarray(image)
+    pixels = None if image is None else array_argument("image", image)
     instances = None if labels is None else instances_of(labels)
-    points = None if range_m is None else np.asarray(range_m)
+    points = None if range_m is None else array_argument("range_m", range_m)
     shapes = [array.shape[:2] for array in (pixels, points, instances) if array is not None]
     if not shapes:
         raise InputError("measure: expected image, range_m or labels, found none of them")
+    if points is not None and points.shape[:2] != shapes[0]:
+        raise InputError(f"range_m: expected {shapes[0]} as the image has, found {points.shape}")
     known = None if camera is None else as_camera(camera, shape=shapes[0])
     grey = np.zeros(shapes[0], dtype=np.float32) if pixels is None else to_grey(pixels)
     seen = None if points is None else _points(points, known, range_unit)
@@ -120,7 +125,9 @@ def observe(
     if right is not None:
         if points is not None:
             raise InputError("right: expected a stereo pair alone, found range_m beside it")
-        seen = points_of_arrays(grey, to_grey(np.asarray(right)), camera=camera, unit=range_unit)
+        seen = points_of_arrays(
+            grey, to_grey(array_argument("right", right)), camera=camera, unit=range_unit
+        )
         notes = (matching_note(seen), *notes)
     return Observation(
         image=grey,
@@ -158,6 +165,10 @@ def read(
     resampled to those of a pinhole camera with square pixels.
     Raises: InputError, which names the file, for what cannot be read or does not fit the image.
     """
+    if not isinstance(image, str | PathLike):
+        raise InputError(
+            f"image: expected a path, found {type(image).__name__}; rockshape.measure takes arrays"
+        )
     picture = read_picture(image, max_pixels=max_pixels)
     shape, name = picture.pixels.shape, Path(image).name
     lens = seen = instances = None

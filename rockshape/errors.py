@@ -18,12 +18,11 @@ def did_you_mean(found: str, known: Iterable[str]) -> str:
     return f"; did you mean {near[0]!r}?" if near else ""
 
 
-def unknown_name(what: str, found: str, known: Iterable[str]) -> InputError:
+def unknown_name(what: str, found: object, known: Iterable[str]) -> InputError:
     """Error for a name that a registry does not hold, with the nearest name that it does hold."""
     names = list(known)
-    return InputError(
-        f"{what}: expected one of {', '.join(names)}, found {found!r}{did_you_mean(found, names)}"
-    )
+    near = did_you_mean(str(found), names)
+    return InputError(f"{what}: expected one of {', '.join(names)}, found {found!r}{near}")
 
 
 def one_line(text: str, limit: int = MAX_LINE) -> str:

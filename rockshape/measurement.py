@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, SupportsIndex, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -120,12 +120,23 @@ class Measurement:
     def __iter__(self) -> Iterator[Rock]:
         return iter(self.rocks)
 
-    def __getitem__(self, index: int) -> Rock:
-        return self.rocks[index]
+    @overload
+    def __getitem__(self, index: SupportsIndex) -> Rock: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Rock, ...]: ...
+    def __getitem__(self, index: SupportsIndex | slice) -> Rock | tuple[Rock, ...]:
+        try:
+            return self.rocks[index]
+        except IndexError:
+            raise IndexError(f"expected an index into {self._count}, found {index}") from None
+
+    @property
+    def _count(self) -> str:
+        return "1 rock" if len(self) == 1 else f"{len(self)} rocks"
 
     def __repr__(self) -> str:
         rows, cols = self.instances.shape
-        return f"Measurement({len(self)} rocks, method={self.method!r}, image {rows} x {cols})"
+        return f"Measurement({self._count}, method={self.method!r}, image {rows} x {cols})"
 
     def _repr_html_(self) -> str:
         table = to_frame(self).to_html(index=False, float_format="{:.4g}".format, na_rep="")
@@ -150,7 +161,7 @@ class Measurement:
             label.set(color="white", fontsize=8, clip_on=True)
         rows, cols = self.instances.shape
         axes.set(xlim=(-0.5, cols - 0.5), ylim=(rows - 0.5, -0.5), xticks=[], yticks=[])
-        axes.set_title(f"{len(self)} rocks, method {self.method}")
+        axes.set_title(f"{self._count}, method {self.method}")
         return axes
 
 

@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING
 from rockshape import measures
 from rockshape.ellipse.direct import Ellipse
 from rockshape.ellipsoid import Ellipsoid
-from rockshape.errors import InputError, unknown_name
+from rockshape.errors import unknown_name
 from rockshape.measures import Measure
-from rockshape.plugins.entry_points import load_records
+from rockshape.plugins.entry_points import load_records, with_entry_points
 from rockshape.rock.view import RockView
 from rockshape.segmentation.finders import FINDERS
 
@@ -100,7 +100,7 @@ def find_method(method: str | Method) -> Method:
     """Method of a name; a Method is returned as it is. Raises: InputError for an unknown name."""
     if isinstance(method, Method):
         return method
-    if method not in methods():
+    if not isinstance(method, str) or method not in methods():
         raise unknown_name("method", method, methods())
     return methods()[method]
 
@@ -131,9 +131,4 @@ def measure_of(column: str) -> Measure | None:
 @cache
 def _registry() -> dict[str, Method]:
     own = replace(ROBUST, measures=(*ROBUST.measures, *load_records(MEASURES_GROUP, Measure)))
-    found = {PAPER.name: PAPER, own.name: own}
-    for method in load_records(METHODS_GROUP, Method):
-        if method.name in found:
-            raise InputError(f"{METHODS_GROUP}: expected a name of its own, found {method.name!r}")
-        found[method.name] = method
-    return found
+    return with_entry_points((PAPER, own), METHODS_GROUP, Method)

@@ -54,6 +54,9 @@ class Observation:
     notes: tuple[str, ...] = ()  # what reading has changed or left out, each in a few words
 
     def __post_init__(self) -> None:
+        given: object = self.image
+        if not isinstance(given, np.ndarray):
+            raise InputError(f"image: expected an array (rows, cols), found {type(given).__name__}")
         shape = self.image.shape
         if self.image.ndim != 2 or self.image.size == 0:
             raise InputError(f"image: expected (rows, cols), found {shape}")

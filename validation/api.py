@@ -109,6 +109,10 @@ def settled(suite: str | os.PathLike[str] | Suite) -> Suite:
     Raises:
         InputError: a suite or a measure that cannot be used.
     """
+    if not isinstance(suite, str | os.PathLike | Suite):
+        raise InputError(
+            f"suite: expected a name, a TOML file or a Suite, found {type(suite).__name__}"
+        )
     whole = suite if isinstance(suite, Suite) else load_suite(os.fspath(suite))
     measures = tuple(settle(spec, {}) for spec in whole.measures)
     return msgspec.structs.replace(whole, measures=measures)

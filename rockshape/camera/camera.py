@@ -4,8 +4,10 @@ Frame: x right, y down, z forward; whole pixel coordinates are pixel centres, (0
 the upper-left pixel.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
+from types import SimpleNamespace
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,6 +41,10 @@ class PinholeLike(Protocol):
     @property
     def cy(self) -> float:
         """Row of the principal point, px."""
+
+
+CameraLike = PinholeLike | Mapping[str, Any]
+"""A camera, or a mapping with the same keys."""
 
 
 @dataclass(frozen=True)
@@ -103,8 +109,15 @@ class Camera:
         )
 
 
+def camera_object(like: object) -> object:
+    """Object with the attributes of a mapping; anything else as it is."""
+    if isinstance(like, Mapping):
+        return SimpleNamespace(**{str(name): value for name, value in like.items()})
+    return like
+
+
 def as_camera(like: object, *, shape: tuple[int, ...] | None = None) -> Camera:
-    """Camera of any object with fx, fy, cx and cy, see `PinholeLike`.
+    """Camera of any object or mapping with fx, fy, cx and cy, see `PinholeLike`.
 
     shape, the image's (rows, cols, ...), stands in where the object has no width and height.
 
@@ -114,11 +127,12 @@ def as_camera(like: object, *, shape: tuple[int, ...] | None = None) -> Camera:
     """
     if isinstance(like, Camera):
         return like
+    kind, like = type(like).__name__, camera_object(like)
     missing = [name for name in INTRINSICS if getattr(like, name, None) is None]
     if missing:
         raise InputError(
-            f"camera: expected an object with fx, fy, cx, cy, "
-            f"found {type(like).__name__} without {', '.join(missing)}"
+            f"camera: expected an object or a mapping with fx, fy, cx, cy, "
+            f"found {kind} without {', '.join(missing)}"
         )
     distortion = getattr(like, "distortion", None)
     if distortion is not None and np.any(np.asarray(distortion) != 0):

@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 
 from rockshape.errors import InputError
 
+MAX_CHANNELS = 4  # red, green, blue and alpha
+UNIT_TOLERANCE = 1e-3  # of floats from 0 to 1: rounding, and the overshoot of a resampling
 FULL_SCALE = {np.dtype(np.uint8): 255, np.dtype(np.uint16): 65535}
 
 
@@ -15,8 +17,9 @@ def to_unit(pixels: NDArray[np.generic]) -> NDArray[np.float32]:
     """Image (rows, cols) grey or (rows, cols, 3) RGB, from 0 to 1; alpha is dropped.
 
     pixels is (rows, cols) or (rows, cols, channels), of 8 or 16 bits or floats from 0 to 1; of one
-    or two channels the first is grey, of more the first three are red, green and blue.
-    Raises: InputError for any other shape or type.
+    or two channels the first is grey, of more the first three are red, green and blue. A float that
+    is not finite is black.
+    Raises: InputError for any other shape, type or range of floats.
     """
     return _scaled(_opaque(pixels))
 
@@ -70,15 +73,26 @@ def stretch(pixels: NDArray[np.generic]) -> NDArray[np.float32]:
 
 def _opaque(pixels: NDArray[np.generic]) -> NDArray[Any]:
     """Pixels (rows, cols) or (rows, cols, 3) without alpha, of their own type or float32."""
-    if pixels.ndim not in (2, 3) or 0 in pixels.shape:
+    channels = pixels.shape[2:] or (1,)
+    if pixels.ndim not in (2, 3) or 0 in pixels.shape or channels[0] > MAX_CHANNELS:
         raise InputError(f"image: expected (rows, cols) or (rows, cols, 3), found {pixels.shape}")
     if np.issubdtype(pixels.dtype, np.floating):
-        pixels = pixels.astype(np.float32)
+        pixels = _checked(pixels.astype(np.float32))
     elif pixels.dtype not in FULL_SCALE:
         raise InputError(f"image: expected 8 or 16 bits a channel, found {pixels.dtype}")
     if pixels.ndim == 2:
         return pixels
     return pixels[..., 0] if pixels.shape[2] < 3 else pixels[..., :3]
+
+
+def _checked(pixels: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Floats from 0 to 1, what is not finite black. Raises: InputError where any lie outside."""
+    finite = np.isfinite(pixels)
+    low, high = pixels.min(where=finite, initial=0), pixels.max(where=finite, initial=1)
+    if low < -UNIT_TOLERANCE or high > 1 + UNIT_TOLERANCE:
+        raise InputError(f"image: expected floats from 0 to 1, found {low:g} to {high:g}")
+    pixels[~finite] = 0
+    return pixels
 
 
 def _scaled(pixels: NDArray[Any]) -> NDArray[np.float32]:

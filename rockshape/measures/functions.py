@@ -15,7 +15,7 @@ The result is a `Reading`: a float that tells its unit and, where it is NaN, the
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rockshape.camera.camera import Camera, PinholeLike, as_camera
+from rockshape.camera.camera import Camera, CameraLike, as_camera
 from rockshape.errors import InputError, unknown_name
 from rockshape.ground import Ground, Plane
 from rockshape.measures import angularity_2d as _angularity_2d
@@ -28,6 +28,7 @@ from rockshape.measures import sphericity_2d as _sphericity_2d
 from rockshape.measures import sphericity_3d as _sphericity_3d
 from rockshape.measures.measure import Measure
 from rockshape.measures.reading import NAN, Reading, Reason
+from rockshape.numerics.array_argument import array_argument
 from rockshape.outline.polygon_fill import inside_of
 from rockshape.rock.instances import Instance, Instances
 from rockshape.rock.view import RockView
@@ -68,7 +69,7 @@ def ellipsoid_error(
     points_m: ArrayLike,
     *,
     method: str = "robust",
-    camera: PinholeLike | None = None,
+    camera: CameraLike | None = None,
     ground: Ground | Plane | None = None,
 ) -> Reading:
     """Ellipsoid fitting error of points; `paper` in m²."""
@@ -80,7 +81,7 @@ def sphericity_3d(
     points_m: ArrayLike,
     *,
     method: str = "robust",
-    camera: PinholeLike | None = None,
+    camera: CameraLike | None = None,
     ground: Ground | Plane | None = None,
 ) -> Reading:
     """Maximum projection sphericity of points."""
@@ -92,7 +93,7 @@ def angularity_3d(
     points_m: ArrayLike,
     *,
     method: str = "robust",
-    camera: PinholeLike | None = None,
+    camera: CameraLike | None = None,
     ground: Ground | Plane | None = None,
 ) -> Reading:
     """3-D angularity of points; `paper` in 1/m."""
@@ -102,7 +103,7 @@ def angularity_3d(
 
 def _choose(method: str, *, robust: Measure, paper: Measure) -> Measure:
     readings = {"robust": robust, "paper": paper}
-    if method not in readings:
+    if not isinstance(method, str) or method not in readings:
         raise unknown_name("method", method, readings)
     return readings[method]
 
@@ -112,13 +113,13 @@ def _flat_view(rock: ArrayLike) -> RockView:
 
     Raises: InputError for what is neither.
     """
-    given = np.asarray(rock)
-    if given.dtype != np.bool_ and given.ndim == 2 and given.shape[1] == 2:
+    given = array_argument("rock", rock)
+    if given.dtype.kind in "iuf" and given.ndim == 2 and given.shape[1] == 2:
         return _outline_view(given)
     if given.ndim != 2 or given.dtype.kind not in "bui" or len(np.unique(given[given != 0])) > 1:
         raise InputError(
-            "rock: expected a mask (rows, cols) of one rock or an outline (n, 2), "
-            f"found {given.shape} of {given.dtype}"
+            "rock: expected a mask (rows, cols) of one rock, bool or whole numbers, or an "
+            f"outline (n, 2), found {given.shape} of {given.dtype}"
         )
     parts = Instances.from_labels((given != 0).astype(np.uint8)).largest_parts()
     part = next(iter(parts), Instance(1, np.s_[0:0, 0:0], np.zeros((0, 0), dtype=bool)))
@@ -140,7 +141,10 @@ def _outline_view(outline: NDArray[np.generic]) -> RockView:
 
 
 def _points_view(points_m: ArrayLike) -> RockView:
-    grid = np.asarray(points_m, dtype=np.float64)
+    given = array_argument("points_m", points_m)
+    if given.dtype.kind not in "iuf":
+        raise InputError(f"points_m: expected numbers, found {given.dtype}")
+    grid = given.astype(np.float64)
     if grid.ndim not in (2, 3) or grid.shape[-1] != 3:
         raise InputError(f"points_m: expected (n, 3) or (rows, cols, 3), found {grid.shape}")
     grid = grid[None] if grid.ndim == 2 else grid
@@ -151,7 +155,7 @@ def _solid(
     points_m: ArrayLike,
     measure: Measure,
     *,
-    camera: PinholeLike | None,
+    camera: CameraLike | None,
     ground: Ground | Plane | None,
 ) -> Reading:
     """Reading of points; what constrains the ellipsoid is asked for only where it is used."""

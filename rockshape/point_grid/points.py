@@ -79,7 +79,9 @@ def _along_rays(values: Floats, kind: RangeKind, camera: Lens | None) -> Floats:
     """Points (rows, cols, 3) of depth or distance, m, or of disparity, px."""
     if camera is None:
         name = "z-depth" if kind == "depth" else kind
-        raise InputError(f"{name}: expected a camera (--camera) to turn it into points, found none")
+        raise InputError(
+            f"{name}: expected a camera (camera, --camera) to turn it into points, found none"
+        )
     rays = camera.rays()
     if kind == "distance":
         values = values / np.sqrt((rays**2).sum(axis=-1))

@@ -46,8 +46,8 @@ def parse_unit(text: str) -> RangeScale:
         count = 0.0
     if name not in UNITS_M or not (np.isfinite(count) and count > 0):
         raise InputError(
-            f"--range-unit: expected {', '.join(UNITS_M)} or a number of them, 0.25mm say, "
-            f"found {text!r}{did_you_mean(name, UNITS_M)}"
+            f"range_unit (--range-unit): expected {', '.join(UNITS_M)} or a number of them, "
+            f"0.25mm say, found {text!r}{did_you_mean(name, UNITS_M)}"
         )
     return RangeScale(count * UNITS_M[name], f"--range-unit {text.strip()}", meant=True)
 
@@ -74,7 +74,7 @@ def check_distance(points_m: NDArray[np.float64], scale: RangeScale) -> None:
 
 def _advice(scale: RangeScale) -> str:
     if scale.said == "metres":
-        return "name the file's unit with --range-unit mm, cm, m, ..."
+        return "name the unit with range_unit, --range-unit: mm, cm, m, ..."
     return (
         "depth_scale is mm a step, depth_scale_m metres a step; "
         f"--range-unit {scale.metres * 1e3:g}mm if it is meant"

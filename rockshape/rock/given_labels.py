@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rockshape.errors import InputError
+from rockshape.numerics.array_argument import array_argument
 from rockshape.rock.instances import MAX_ID, MAX_LABEL, Instances
 from rockshape.rock.pieces import Pieces, split_pieces
 
@@ -15,7 +16,7 @@ def instances_of(labels: ArrayLike | Instances, pieces: Pieces = "split") -> Ins
     """
     if isinstance(labels, Instances):
         return labels
-    return split_pieces(Instances.from_labels(_whole(np.asarray(labels))), pieces)
+    return split_pieces(Instances.from_labels(_whole(array_argument("labels", labels))), pieces)
 
 
 def _whole(labels: NDArray[np.generic]) -> NDArray[np.integer]:

@@ -1,10 +1,11 @@
 """Masks without ids: one value whose connected pieces are the rocks."""
 
-from typing import Literal
+from typing import Literal, get_args
 
 import cv2
 import numpy as np
 
+from rockshape.errors import unknown_name
 from rockshape.rock.instances import Instance, Instances
 
 Pieces = Literal["split", "keep"]
@@ -15,7 +16,10 @@ def split_pieces(instances: Instances, pieces: Pieces = "split") -> Instances:
     """Rocks of a label image; a single one in several pieces (8-connected) becomes a rock each.
 
     The pieces are numbered from 1 in reading order, and a note says so. `keep` keeps the rock.
+    Raises: InputError where pieces is neither.
     """
+    if pieces not in get_args(Pieces):
+        raise unknown_name("pieces", pieces, get_args(Pieces))
     if len(instances) != 1 or pieces == "keep":
         return instances
     (whole,) = instances

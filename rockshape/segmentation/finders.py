@@ -9,8 +9,8 @@ from functools import cache
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from rockshape.errors import InputError, unknown_name
-from rockshape.plugins.entry_points import load_records
+from rockshape.errors import unknown_name
+from rockshape.plugins.entry_points import with_entry_points
 
 if TYPE_CHECKING:
     from rockshape.observation import Observation
@@ -78,18 +78,13 @@ def finders() -> Mapping[str, Finder]:
 
     Raises: InputError for an entry point that is no Finder, or takes another's name.
     """
-    found = dict(FINDERS)
-    for finder in load_records(FINDERS_GROUP, Finder):
-        if finder.name in found:
-            raise InputError(f"{FINDERS_GROUP}: expected a name of its own, found {finder.name!r}")
-        found[finder.name] = finder
-    return MappingProxyType(found)
+    return MappingProxyType(with_entry_points(FINDERS.values(), FINDERS_GROUP, Finder))
 
 
 def find_finder(finder: str | Finder) -> Finder:
     """Finder of a name; a Finder is returned as it is. Raises: InputError for an unknown name."""
     if isinstance(finder, Finder):
         return finder
-    if finder not in finders():
+    if not isinstance(finder, str) or finder not in finders():
         raise unknown_name("find", finder, finders())
     return finders()[finder]

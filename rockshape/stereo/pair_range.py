@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from rockshape.camera.camera import as_camera
+from rockshape.camera.camera import as_camera, camera_object
 from rockshape.camera.lens import DisparityScale, Lens
 from rockshape.errors import InputError
 from rockshape.numerics.arrays import Singles
@@ -63,6 +63,7 @@ def points_of_arrays(
     The camera may have `disparity_offset`, px, by which the right principal point lies farther
     right. unit is the baseline's in place of metres.
     """
+    camera = camera_object(camera)
     baseline_m = getattr(camera, "baseline_m", None)
     if baseline_m is None:
         raise InputError("right: expected a camera with baseline_m, found none")

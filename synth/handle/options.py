@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any, TypedDict
 
 import msgspec
+import numpy as np
 
 from synth.errors import SpecError
 from synth.spec import SceneSpec, convert_spec, load_spec
@@ -61,7 +62,7 @@ def spec_of(source: SpecSource | None, options: Mapping[str, Any]) -> SceneSpec:
             raise SpecError(
                 f"{where}: {unknown_name('argument', name, SceneOptions.__annotations__)}"
             )
-    return convert_spec(merged(_table(source), _tables(options)), where=where)
+    return convert_spec(plain(merged(_table(source), _tables(options))), where=where)
 
 
 def with_noise(spec: SceneSpec, noise: str | Table | None) -> SceneSpec:
@@ -103,6 +104,18 @@ def _tables(options: Mapping[str, Any]) -> dict[str, Any]:
     }
     own = {name: options[name] for name in _OF_ROCKS if name in options}
     return merged(tables, {"rocks": own}) if own else tables
+
+
+def plain(table: Table) -> dict[str, Any]:
+    """Table with Python's numbers and lists in place of numpy's."""
+    return {
+        key: plain(value)
+        if isinstance(value, Mapping)
+        else value.tolist()
+        if isinstance(value, np.generic | np.ndarray)
+        else value
+        for key, value in table.items()
+    }
 
 
 def merged(one: Table, two: Table) -> dict[str, Any]:

@@ -2,8 +2,9 @@
 
 from collections.abc import Mapping
 from functools import cached_property
+from operator import index as index_of
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, SupportsIndex
 
 from synth.camera.calibration import reported_camera
 from synth.camera.camera import RenderCamera
@@ -81,6 +82,9 @@ class Scene:
             MissingBackendError: the machine lacks the renderer.
             RenderError: the rendering process failed, died or took longer than `timeout_s`.
         """
+        if not isinstance(view, SupportsIndex):
+            raise SpecError(f"view: expected a whole number, found {view!r}")
+        view = index_of(view)
         if not 0 <= view < self.view_count:
             raise SpecError(f"view: expected 0 to {self.view_count - 1}, found {view}")
         spec = with_noise(self.spec, noise)

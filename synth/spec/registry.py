@@ -120,7 +120,13 @@ class Registry(Generic[R]):
         return found
 
     def _load(self, entry: EntryPoint) -> R:
-        record: R = entry.load()
+        try:
+            record: R = entry.load()
+        except Exception as error:  # of code from elsewhere, any
+            raise SpecError(
+                f"entry point {entry.value}: expected a {self.what}, "
+                f"found {type(error).__name__}: {error}"
+            ) from error
         if getattr(record, "name", None) != entry.name:
             raise SpecError(
                 f"entry point {entry.value}: expected a {self.what} named {entry.name!r}, "

@@ -104,7 +104,7 @@ def folder(path: Path) -> None:
         (pickled, "pickled objects"),
         (pickle_itself, "pickled objects"),
         (other_shape, "found (256, 248, 3)"),
-        (depth_alone, "expected a camera (--camera)"),
+        (depth_alone, "expected a camera (camera, --camera)"),
         (words, "found <U3"),
         (cut, "expected range"),
         (empty, "found an empty file"),

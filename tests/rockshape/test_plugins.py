@@ -1,9 +1,14 @@
 """A method, a measure and a finder, each in one file of its own, found by entry points."""
 
 import os
+import re
 import subprocess
 import sys
+import tomllib
+from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
+from types import SimpleNamespace
 
 import cv2
 import numpy as np
@@ -11,12 +16,18 @@ import pandas as pd
 import pytest
 
 import rockshape
+import validation
+from rockshape import ROBUST, Finder, Measure, Method
+from rockshape.io import RangeFormat
 from rockshape.pipeline import measure
+from synth import Sensor
 from tests.plugins.bright_method import METHOD
-from tests.plugins.concavity_measure import CONCAVITY
+from tests.plugins.compactness_measure import COMPACTNESS
 from tests.plugins.dark_finder import FINDER
+from validation.suite.kind import Kind
 
 ROOT = Path(__file__).parents[2]
+TOML = re.compile(r"^```toml\n(.*?)^```$", flags=re.MULTILINE | re.DOTALL)
 y, x = np.mgrid[:60, :90]
 DISC = np.hypot(x - 40, y - 30) < 20
 IMAGE = np.where(DISC, 0.9, 0.2).astype(np.float32)
@@ -41,7 +52,7 @@ def installed(tmp_path: Path) -> dict[str, str]:
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: rockshape-plugins\nVersion: 1.0\n")
     (info / "entry_points.txt").write_text(
         "[rockshape.methods]\nbright = tests.plugins.bright_method:METHOD\n"
-        "[rockshape.measures]\nconcavity = tests.plugins.concavity_measure:CONCAVITY\n"
+        "[rockshape.measures]\ncompactness = tests.plugins.compactness_measure:COMPACTNESS\n"
         "[rockshape.finders]\ndark = tests.plugins.dark_finder:FINDER\n"
     )
     return {**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), str(ROOT)])}
@@ -64,7 +75,7 @@ def test_entry_points_add_a_method_and_a_column_to_the_command(
     done = run(["measure", str(picture), "--labels", str(labels), "--out", str(table)], installed)
     assert done.returncode == 0, done.stderr
     row = pd.read_csv(table).iloc[0]
-    assert 0 <= row["concavity"] < 0.02
+    assert 0.98 < row["compactness"] <= 1
     missing = run(["measure", str(picture), "--method", "brihgt"], installed)
     assert missing.returncode == 2
     assert "did you mean 'bright'" in missing.stderr
@@ -82,6 +93,14 @@ def test_an_entry_point_that_is_no_record_is_one_line(
     assert done.stderr.strip() == (
         "rockshape: entry point 'bright' of rockshape.methods: expected a Method, found Measure"
     )
+    points.write_text("[rockshape.methods]\nbright = tests.plugins.absent:METHOD\n")
+    done = run(["measure", str(picture)], installed)
+    assert done.returncode == 2
+    assert done.stderr.startswith(
+        "rockshape: entry point 'bright' of rockshape.methods: expected a Method, "
+        "found ModuleNotFoundError: "
+    )
+    assert done.stderr.count("\n") == 1
 
 
 def test_an_own_finder_is_one_record() -> None:
@@ -103,7 +122,45 @@ def test_an_entry_point_adds_a_finder_to_the_command(
 
 
 def test_a_measure_declares_what_it_is_held_to_beside_its_formula() -> None:
-    assert CONCAVITY.expected_trait == "angularity"
-    assert CONCAVITY.view_truth == "outline_angularity"
-    assert CONCAVITY.figure is not None
-    assert CONCAVITY.figure().axes == []
+    own = replace(ROBUST, measures=(COMPACTNESS,))
+    found = rockshape.measure(IMAGE, method=own, labels=DISC)
+    truth = pd.DataFrame({"id": [1], "outline_roundness": [1.0]})
+    scored = validation.score(found, SimpleNamespace(labels=DISC, truth=truth)).measures
+    assert scored[["measure", "truth"]].to_numpy().tolist() == [
+        ["compactness", "outline_roundness"]
+    ]
+
+
+def test_an_own_measure_is_held_to_the_gate_of_the_docs(
+    tmp_path: Path, installed: dict[str, str]
+) -> None:
+    text = (ROOT / "docs" / "extending.md").read_text(encoding="utf-8")
+    suite = next(block for block in TOML.findall(text) if 'name = "compactness"' in block)
+    (tmp_path / "compactness.toml").write_text(suite, encoding="utf-8")
+    command = [sys.executable, "-m", "rockshape.cli", "validate", "run", "--jobs", "1"]
+    done = subprocess.run(
+        [*command, "--suite", "compactness.toml", "--out", "out"],
+        cwd=tmp_path, env=installed, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "passed: 1 of 1 gates" in done.stdout
+
+
+def test_the_distribution_of_the_docs_names_records_of_their_groups() -> None:
+    text = (ROOT / "docs" / "extending.md").read_text(encoding="utf-8")
+    project = next(block for block in TOML.findall(text) if "[build-system]" in block)
+    groups = tomllib.loads(project)["project"]["entry-points"]
+    records = {
+        "rockshape.measures": ("compactness_measure", Measure),
+        "rockshape.methods": ("bright_method", Method),
+        "rockshape.finders": ("dark_finder", Finder),
+        "rockshape.formats": ("ascii_range", RangeFormat),
+        "rockshape.kinds": ("coins_kind", Kind),
+        "synth.sensors": ("lidar", Sensor),
+    }
+    assert set(groups) == set(records)
+    for group, (module, record) in records.items():
+        (named,) = groups[group].values()
+        folder = "tests.synth.plugins" if group.startswith("synth") else "tests.plugins"
+        found = getattr(import_module(f"{folder}.{module}"), named.partition(":")[2])
+        assert isinstance(found, record)

@@ -218,10 +218,22 @@ def test_a_mistake_names_the_argument(source, options, words):
 def test_views_and_indices_that_do_not_exist(scene):
     with pytest.raises(synth.SpecError, match="view: expected 0 to 1, found 2"):
         scene.render(2)
+    for view in (1.0, "a", None):
+        with pytest.raises(synth.SpecError, match="view: expected a whole number, found"):
+            scene.render(view)
     with pytest.raises(synth.SpecError, match="index: expected 0 to 0, found 1"):
         synth.make_scene(index=1)
     with pytest.raises(synth.SpecError, match=r"render: noise\.kind: .* did you mean 'stereo'"):
         scene.render(0, noise="sterio")
+
+
+def test_numbers_of_numpy_are_numbers():
+    ours = synth.make_scene(
+        rocks=np.int64(3), seed=np.uint8(2), sun={"elevation_deg": np.float32(20)}
+    )
+    assert ours.spec == synth.make_scene(rocks=3, seed=2, sun={"elevation_deg": 20.0}).spec
+    ratios = synth.make_scene(rocks={"b_over_a": np.array([0.5, 1.0])}).spec.rocks.b_over_a
+    assert ratios == (0.5, 1.0)
 
 
 def test_rocks_that_do_not_fit_are_the_callers_error():

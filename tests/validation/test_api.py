@@ -156,6 +156,44 @@ def test_a_method_that_no_module_defines_is_refused(suite) -> None:
         validation.run(suite, methods=[nameless])
 
 
+def test_a_method_of_the_main_script_is_refused(suite, monkeypatch) -> None:
+    mine = replace(rockshape.ROBUST, name="mine")
+    monkeypatch.setattr(sys.modules["__main__"], "MINE", mine, raising=False)
+    monkeypatch.setitem(sys.modules, "__mp_main__", sys.modules["__main__"])
+    with pytest.raises(validation.InputError, match="that a module other than the main script"):
+        validation.run(suite, methods=[mine])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        ({"suite": None}, "suite: expected a name, a TOML file or a Suite, found NoneType"),
+        ({"suite": "cii"}, "suite: expected one of .* did you mean 'ci'"),
+        ({"jobs": "two"}, "jobs: expected 1 or more, found 'two'"),
+        ({"methods": [3]}, "methods: expected names or Method records, found int"),
+    ],
+)
+def test_an_argument_that_cannot_be_used_is_named(suite, arguments, says) -> None:
+    with pytest.raises(validation.InputError, match=says):
+        validation.run(**{"suite": suite, **arguments})
+
+
+def test_what_is_no_measurement_or_no_view_is_named(view) -> None:
+    found = rockshape.measure(labels=view.labels)
+    with pytest.raises(validation.InputError, match="found: expected a Measurement, found Data"):
+        validation.score(found.to_frame(), view)
+    for other in (None, view.labels, SimpleNamespace(labels=view.labels, truth={"id": [1]})):
+        with pytest.raises(validation.InputError, match="view: expected labels, an array, and"):
+            validation.score(found, other)
+
+
+def test_a_method_that_is_passed_as_a_record_is_scored(view) -> None:
+    mine = replace(rockshape.ROBUST, name="mine", measures=rockshape.ROBUST.measures[:1])
+    scored = validation.score(rockshape.measure(labels=view.labels, method=mine), view)
+    assert scored.measures["measure"].tolist() == ["axis_ratio"]
+    assert scored.measures["tau"].tolist() == [1.0]
+
+
 def test_an_unknown_method_and_a_name_alone_are_refused(suite) -> None:
     with pytest.raises(validation.InputError, match="did you mean 'robust'"):
         validation.run(suite, methods=["robsut"])

@@ -1,6 +1,7 @@
 """A kind of experiment from outside the packages, in one file, from its suite to a comparison."""
 
 import json
+import shutil
 import sys
 from pathlib import Path
 
@@ -11,87 +12,7 @@ from rockshape.cli import main
 from validation.suite import registry
 from validation.suite.plugins import load_plugin
 
-KIND = '''
-"""Kind from outside: coins of known diameter, measured with a ruler that may be too long."""
-
-import pandas as pd
-from markupsafe import Markup
-
-from validation.execution.units import UnitResult
-from validation.scores.judge import Feeds
-from validation.scores.score import Definition, Estimate, Key
-from validation.suite.experiment import Experiment
-from validation.suite.kind import Kind
-from validation.suite.registry import register_kind
-
-DIAMETERS_MM = (16.25, 18.75, 21.25, 25.75)
-
-
-class CoinsExperiment(Experiment, frozen=True, kw_only=True, tag="coins"):
-    throws: int
-    ruler: float = 1.0
-
-    @property
-    def units(self):
-        return tuple(("", throw) for throw in range(self.throws))
-
-    def dependencies(self, series, scene):
-        return self.plain(without=("title", "throws"))
-
-
-KIND = register_kind(
-    Kind(name="coins", spec=CoinsExperiment, work=__name__, judge=__name__, page=__name__)
-)
-
-
-def run(unit):
-    e = unit.experiment
-    place = {"experiment": e.name, "kind": "coins", "series": "", "scene": unit.scene}
-    place |= {"seed": e.seed + unit.scene, "view": 0, "method": "ruler"}
-    rows = [
-        place
-        | {"instance": i, "rock": i + 1, "status": "matched", "iou": 1.0, "eligible": True}
-        | {"diameter_mm": e.ruler * d + 0.01 * unit.scene, "truth_diameter_mm": d}
-        for i, d in enumerate(DIAMETERS_MM)
-    ]
-    return UnitResult(pd.DataFrame(rows), pictures=(), backend="")
-
-
-def claims(experiment, measures):
-    return ()
-
-
-view_claims = ranked_claims = claims
-
-
-def definitions(experiment, measures):
-    def error(records):
-        own = records[records["experiment"] == experiment.name]
-        off = (own["diameter_mm"] - own["truth_diameter_mm"]).abs()
-        return Estimate(float(off.max(skipna=False)), len(own))
-
-    key = Key(experiment.name, "ruler", "", "diameter_mm", "error")
-    return (Definition(key, "ruler: greatest error", "mm", "coins", "lower", error),)
-
-
-def _lost(records):
-    return records.assign(diameter_mm=float("nan"))
-
-
-FEEDS = Feeds(
-    oracle=lambda records, claims: records.assign(diameter_mm=records["truth_diameter_mm"]),
-    shuffled=lambda records, rng: _lost(records),
-    mixed=lambda records, claims, rng: _lost(records),
-)
-
-
-def scenes_shown(experiment):
-    return None
-
-
-def section(run, experiment, room):
-    return Markup(f'<section id="at-{experiment.name}"><h2>{experiment.title}</h2></section>')
-'''
+KIND = Path(__file__).parents[1] / "plugins" / "coins_kind.py"
 SUITE = """
 name = "coins"
 title = "Coins"
@@ -118,7 +39,7 @@ def suite(tmp_path, monkeypatch) -> Path:
     monkeypatch.setattr(registry, "_registered", {})
     monkeypatch.delitem(sys.modules, "coins_kind", raising=False)
     load_plugin.cache_clear()
-    (tmp_path / "coins_kind.py").write_text(KIND, encoding="utf-8")
+    shutil.copy(KIND, tmp_path)
     (tmp_path / "coins.toml").write_text(SUITE, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
     monkeypatch.syspath_prepend(tmp_path)

@@ -134,8 +134,8 @@ def local(jobs: int) -> AbstractContextManager[Executor]:
     Raises:
         InputError: jobs is less than one, before anything is started or written.
     """
-    if jobs < 1:
-        raise InputError(f"--jobs: expected 1 or more, found {jobs}")
+    if not isinstance(jobs, int) or jobs < 1:
+        raise InputError(f"jobs: expected 1 or more, found {jobs!r}")
     return _local(jobs)
 
 

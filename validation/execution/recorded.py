@@ -81,6 +81,8 @@ class _GateResult(Struct):
 def _document(folder: Path) -> Any:
     try:
         return json.loads(read_text(folder / "scores.json"))
+    except FileNotFoundError as error:
+        raise InputError(f"{folder}: {_EXPECTED}, found no scores.json") from error
     except (OSError, ValueError, RecursionError) as error:
         raise InputError(f"{folder}: {_EXPECTED}, found: {error}") from error
 

@@ -12,7 +12,6 @@ from scipy.stats import kendalltau
 
 from rockshape.measurement import Measurement
 from rockshape.measures import Measure
-from rockshape.method import find_method
 from validation.errors import InputError
 from validation.records.match import match_labels
 
@@ -65,8 +64,15 @@ def score_view(found: Measurement, view: TrueView, *, min_iou: float) -> ViewSco
     """Measurement matched with a view's truth.
 
     Raises:
-        InputError: the images' sizes differ, or the truth has no column `id`.
+        InputError: one is no measurement or no view, the images' sizes differ, or the truth has no
+            column `id`.
     """
+    if not isinstance(found, Measurement):
+        raise InputError(f"found: expected a Measurement, found {type(found).__name__}")
+    if not isinstance(getattr(view, "truth", None), pd.DataFrame) or not hasattr(view, "labels"):
+        raise InputError(
+            f"view: expected labels, an array, and truth, a table, found {type(view).__name__}"
+        )
     labels = np.asarray(view.labels).astype(np.int32)
     if "id" not in view.truth:
         raise InputError(f"view: truth: expected the column id, found {list(view.truth.columns)}")
@@ -84,7 +90,7 @@ def score_view(found: Measurement, view: TrueView, *, min_iou: float) -> ViewSco
         precision=count / len(found) if len(found) else float("nan"),
         mean_iou=float(partner["iou"].mean()) if count else float("nan"),
         measures=pd.DataFrame(
-            list(_scored(rocks, find_method(found.method).measures)),
+            list(_scored(rocks, found.measures)),
             columns=["measure", "truth", "rocks", "tau", "bias", "rms_error"],
         ),
     )

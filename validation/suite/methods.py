@@ -35,10 +35,14 @@ def _reference(method: str | Method) -> str:
     """Name of a built-in method, or the module and name at which a record can be imported."""
     if isinstance(method, str):
         return method
+    if not isinstance(method, Method):
+        raise InputError(
+            f"methods: expected names or Method records, found {type(method).__name__}"
+        )
     if method.name in BUILT_IN:
         return method.name
     for module_name, module in list(sys.modules.items()):
-        if module_name != "__main__":
+        if module is not sys.modules["__main__"]:  # nor its alias __mp_main__
             for name, value in list(getattr(module, "__dict__", {}).items()):
                 if value is method:
                     return f"{module_name}:{name}"

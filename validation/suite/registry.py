@@ -3,9 +3,9 @@
 import pkgutil
 from functools import cache
 from importlib import import_module
-from importlib.metadata import entry_points
 from importlib.util import find_spec
 
+from rockshape.plugins.entry_points import with_entry_points
 from synth.spec.wording import expected_one_of
 from validation.errors import InputError
 from validation.suite.experiment import Experiment
@@ -19,14 +19,17 @@ _registered: dict[str, Kind] = {}
 
 @cache
 def installed_kinds() -> dict[str, Kind]:
-    """Kinds of this package's folders, then those of installed plug-ins."""
+    """Kinds of this package's folders, then those of installed plug-ins.
+
+    Raises:
+        InputError: an entry point that is no Kind, or takes another's name.
+    """
     spec = find_spec(_PACKAGE)
     folders = pkgutil.iter_modules(spec.submodule_search_locations if spec else None)
     kinds: list[Kind] = [
         import_module(f"{_PACKAGE}.{each.name}").KIND for each in folders if each.ispkg
     ]
-    kinds += [point.load() for point in entry_points(group=GROUP)]
-    return {kind.name: kind for kind in kinds}
+    return with_entry_points(kinds, GROUP, Kind)
 
 
 def kinds() -> dict[str, Kind]:

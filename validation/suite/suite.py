@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 from msgspec import Meta, Struct, field
 
+from synth.spec.wording import expected_one_of
 from synth.text_file import read_text
 from validation.errors import InputError
 from validation.peers import MeasureSpec, Name, Text, normalise_measures
@@ -103,9 +104,8 @@ def load_suite(name_or_path: str) -> Suite:
     if name_or_path.endswith(".toml"):
         return as_suite(_parse(_read(Path(name_or_path)), where=name_or_path), where=name_or_path)
     if name_or_path not in suite_names():
-        known = ", ".join(suite_names())
         raise InputError(
-            f"--suite: expected one of {known} or a file ending in .toml, found {name_or_path!r}"
+            f"suite: {expected_one_of(name_or_path, suite_names())}; or name a file ending in .toml"
         )
     text = (files("validation") / "suites" / f"{name_or_path}.toml").read_text(encoding="utf-8")
     where = f"suite {name_or_path}"

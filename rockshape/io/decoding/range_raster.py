@@ -3,7 +3,7 @@
 import numpy as np
 
 from rockshape.camera.lens import Lens
-from rockshape.errors import InputError
+from rockshape.errors import InputError, unknown_name
 from rockshape.io.format import ImageInfo, RangeRaster
 from rockshape.point_grid.points import KINDS, PointReading, RangeKind, points_from
 from rockshape.point_grid.units import RangeScale, parse_unit
@@ -46,7 +46,7 @@ def points_of(
 def _kind(raster: RangeRaster, dimensions: int, asked: RangeKind | None) -> RangeKind:
     by_shape: RangeKind = "depth" if dimensions == 2 else "xyz"
     if asked is not None and asked not in KINDS:
-        raise InputError(f"--range-kind: expected one of {', '.join(KINDS)}, found {asked!r}")
+        raise unknown_name("range_kind (--range-kind)", asked, KINDS)
     chosen = asked or raster.kind or by_shape
     if (chosen == "xyz") != (dimensions == 3):
         needed = "three values a pixel" if chosen == "xyz" else "one value a pixel"
@@ -67,6 +67,9 @@ def _scale(
     if camera is None or camera.depth_scale is None:
         needed = "depth_scale, mm a step, or depth_scale_m, metres a step, in the camera file"
         if camera is None:
-            needed = "a camera with depth_scale (--camera)"
-        raise InputError(f"range in whole steps: expected {needed}, or --range-unit mm, found none")
+            needed = "a camera with depth_scale (camera, --camera)"
+        raise InputError(
+            f"range in whole steps: expected {needed}, or a unit (range_unit, --range-unit mm), "
+            "found none"
+        )
     return RangeScale(camera.depth_scale / 1000, f"depth_scale {camera.depth_scale:g} mm")

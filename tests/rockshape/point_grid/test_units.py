@@ -17,7 +17,9 @@ def test_a_unit_is_a_name_or_a_number_of_them(text: str, metres: float) -> None:
 
 @pytest.mark.parametrize("text", ["", "metre", "0mm", "-1mm", "1..2mm", "mm2", "1e999m", "nan m"])
 def test_any_other_unit_is_refused(text: str) -> None:
-    with pytest.raises(InputError, match=r"^--range-unit: expected km, m, dm, cm, mm"):
+    with pytest.raises(
+        InputError, match=r"^range_unit \(--range-unit\): expected km, m, dm, cm, mm"
+    ):
         parse_unit(text)
 
 

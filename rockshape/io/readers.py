@@ -16,6 +16,7 @@ from rockshape.errors import InputError
 from rockshape.io.decoding.range_raster import points_of
 from rockshape.io.files import MAX_PIXELS
 from rockshape.io.format import ImageContent, ImageInfo
+from rockshape.io.guard import guard
 from rockshape.io.pixels import to_grey, to_levels, to_unit
 from rockshape.io.registry import CAMERAS, IMAGES, LABELS, RANGES
 from rockshape.point_grid.points import PointReading, RangeKind
@@ -134,7 +135,8 @@ def read_pair(
     right = read_picture(path, max_pixels=max_pixels).pixels
     scale = RangeScale() if unit is None else parse_unit(unit)
     try:
-        return points_of_pair(to_grey(left), to_grey(right), camera=camera, scale=scale)
+        with guard(_no_pair):
+            return points_of_pair(to_grey(left), to_grey(right), camera=camera, scale=scale)
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
 
@@ -180,6 +182,10 @@ def read_lens(
             f"{path}: camera: expected {info.shape} as the image has, found {lens.shape}"
         )
     return lens
+
+
+def _no_pair(reason: str) -> InputError:
+    return InputError(f"expected the right picture and the camera of a stereo pair, found {reason}")
 
 
 def _image_info(shape: tuple[int, ...], name: str = "") -> ImageInfo:

@@ -17,6 +17,7 @@ from rockshape.stereo.block_matching import (
 from rockshape.stereo.rectified_pair import RectifiedPair, rectified_pair
 
 DARK_BRIGHT_PERCENT = (0.1, 99.9)  # of both pictures: what becomes 0 and 255
+MIN_SIDE_PX = 16
 MIN_MATCHED = 0.2  # of the pixels, below which the pictures are not those of a pair
 
 
@@ -39,6 +40,11 @@ def points_of_pair(
     if np.array_equal(left, right):
         raise InputError("expected the right picture of a pair, found the left one once more")
     pair = rectified_pair(camera)
+    if min(left.shape) < MIN_SIDE_PX or not abs(pair.infinity_px) < left.shape[1]:
+        raise InputError(
+            f"expected pictures of at least {MIN_SIDE_PX} px a side, whose principal points differ "
+            f"by less than their width, found {left.shape} and {pair.infinity_px:g} px"
+        )
     levels = _eight_bits(left, right)
     pictures = _rectified(pair, levels)
     coarse = coarse_disparity(*pictures, infinity_px=pair.infinity_px)

@@ -261,6 +261,24 @@ def test_what_is_no_pair_is_one_line(tmp_path: Path) -> None:
         with pytest.raises(InputError, match=says) as refused:
             rockshape.read(**given)
         assert "\n" not in str(refused.value)
+    apart = saved(
+        tmp_path / "apart.json", json.dumps(json.loads(PAIRED) | {"disparity_offset": 1e8})
+    )
+    with pytest.raises(InputError, match="principal points differ by less than their width"):
+        rockshape.read(**files, camera=apart)
     far = saved(tmp_path / "far.json", json.dumps(K | {"baseline_m": 120}))
     with pytest.raises(InputError, match="--range-unit"):
         rockshape.read(**files, camera=far)
+
+
+def test_a_failure_of_matching_is_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    files = written_pair(tmp_path, shot(Lens(PINHOLE)), shot(Lens(PINHOLE), BESIDE))
+    camera = saved(tmp_path / "c.json", PAIRED)
+
+    def fail(*_: object, **__: object) -> None:
+        raise cv2.error("assertion\nfailed")
+
+    monkeypatch.setattr(cv2.StereoSGBM, "create", fail)
+    with pytest.raises(InputError, match="camera of a stereo pair, found assertion") as refused:
+        rockshape.read(**files, camera=camera)
+    assert "\n" not in str(refused.value)

@@ -198,16 +198,12 @@ PDS4_PARTS = (
 )
 
 
-@pytest.mark.parametrize("kind", ["CAHV", "CAHVOR", "CAHVORE"])
-def test_pds4_labels_give_the_same_camera(tmp_path: Path, kind: str) -> None:
-    model = SPIRIT | PUPIL
+def pds4_label(path: Path, kind: str, model: dict[str, tuple[float, ...]], more: str = "") -> Path:
+    """Label after the PDS4 geometry dictionary: a class for each vector, and more elements."""
     parts = "".join(
         VECTOR.format(*names, *model[letter]) for *names, letter in PDS4_PARTS if letter in kind
     )
-    if kind == "CAHVORE":
-        parts += "<geom:cahvore_model_type>3</geom:cahvore_model_type>"
-        parts += "<geom:cahvore_model_parameter>0.6</geom:cahvore_model_parameter>"
-    geometry = f"<geom:{kind}_Model>{parts}</geom:{kind}_Model>"
+    geometry = f"<geom:{kind}_Model>{parts}{more}</geom:{kind}_Model>"
     text = PDS4.replace(
         "<File_Area_Observational>",
         f"<Observation_Area>{geometry}</Observation_Area><File_Area_Observational>",
@@ -215,11 +211,21 @@ def test_pds4_labels_give_the_same_camera(tmp_path: Path, kind: str) -> None:
         'xmlns="http://pds.nasa.gov/pds4/pds/v1"',
         'xmlns="http://pds.nasa.gov/pds4/pds/v1" xmlns:geom="http://pds.nasa.gov/pds4/geom/v1"',
     )
-    path = tmp_path / "frame.xml"
     path.write_text(text)
-    scalars = {"T": 3.0, "P": 0.6} if kind == "CAHVORE" else {}
+    return path
+
+
+@pytest.mark.parametrize("kind", ["CAHV", "CAHVOR", "CAHVORE"])
+def test_pds4_labels_give_the_same_camera(tmp_path: Path, kind: str) -> None:
+    model = SPIRIT | PUPIL
+    more, scalars = "", {}
+    if kind == "CAHVORE":
+        more += "<geom:cahvore_model_type>3</geom:cahvore_model_type>"
+        more += "<geom:cahvore_model_parameter>0.6</geom:cahvore_model_parameter>"
+        scalars = {"T": 3.0, "P": 0.6}
     vectors = {letter: model[letter] for letter in kind}
     other = read_lens(label(tmp_path, kind, **vectors, **scalars), shape=(SIZE, SIZE))
+    path = pds4_label(tmp_path / "frame.xml", kind, model, more)
     lens = read_lens(path, shape=(SIZE, SIZE))
     assert lens.pinhole == other.pinhole
     assert lens.distortion == other.distortion

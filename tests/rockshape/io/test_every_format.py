@@ -18,8 +18,9 @@ import rockshape
 from rockshape.io.registry import CAMERAS, IMAGES, LABELS, RANGES, FormatRegistry
 from tests.rockshape.io import scene_files, test_camera_formats
 from tests.rockshape.io import test_range_formats as range_files
-from tests.rockshape.io.archive_products import pds4_product
+from tests.rockshape.io.archive_products import pds3_product, pds4_product
 from tests.rockshape.io.sphere_scene import CAMERA, measure_files, sphere_scene
+from tests.rockshape.test_cahv import pds4_label
 
 TOLERANCE = 0.005
 FEWEST_FORMATS = 25
@@ -48,6 +49,31 @@ RANGE_FILES: dict[str, Range] = {
 }
 
 
+PLAIN = test_camera_formats.PLAIN
+CAHV = {"C": (0.0, 0.0, 0.0), "A": (0.0, 0.0, 1.0)}
+CAHV |= {"H": (500.0, 0.0, 159.5), "V": (0.0, 501.0, 119.5)}
+SQUARE = dict(CAMERA) | {"fy": 501.0}
+CAMERA_FILES: dict[str, scene_files.Make] = {
+    "pinhole JSON": lambda f: scene_files.written(f / "c.json", SQUARE),
+    "BOP scene_camera": PLAIN["BOP"],
+    "OpenCV": PLAIN["OpenCV YAML"],
+    "ROS camera_info": PLAIN["ROS"],
+    "Open3D": PLAIN["Open3D"],
+    "nerfstudio": PLAIN["nerfstudio"],
+    "COLMAP": PLAIN["COLMAP"],
+    "RealSense": PLAIN["RealSense"],
+    "Middlebury": PLAIN["Middlebury"],
+    "PDS3": lambda f: pds3_product(
+        f / "c.img",
+        sphere_scene().depth_m,
+        map_type="RANGE_MAP",
+        missing="0.0",
+        cahv=list(CAHV.values()),
+    ),
+    "PDS4": lambda f: pds4_label(f / "c.xml", "CAHV", CAHV),
+}
+
+
 def _of(registry: FormatRegistry) -> set[str]:
     return {each.name for each in registry.own if each.readable}
 
@@ -68,19 +94,12 @@ def in_order(frame: pd.DataFrame) -> pd.DataFrame:
 
 
 def test_every_format_has_a_file_here() -> None:
-    cameras = {"pinhole JSON", "PDS3", "PDS4", *map(_registered, test_camera_formats.PLAIN)}
     assert set(scene_files.IMAGES) == _of(IMAGES)
     assert set(scene_files.LABELS) == _of(LABELS)
     assert set(RANGE_FILES) == _of(RANGES)
-    assert cameras >= _of(CAMERAS)
+    assert set(CAMERA_FILES) == _of(CAMERAS)
     kinds = (IMAGES, LABELS, RANGES, CAMERAS)
     assert sum(len(_of(each)) for each in kinds) >= FEWEST_FORMATS
-
-
-def _registered(name: str) -> str:
-    """Registry's name of a camera file of the camera tests, `OpenCV YAML` say."""
-    longer = {"ROS": "ROS camera_info", "BOP": "BOP scene_camera"}
-    return longer.get(name, name.split(maxsplit=1)[0])
 
 
 def found_in(path: Path) -> pd.DataFrame:
@@ -133,4 +152,22 @@ def test_range(tmp_path: Path, name: str) -> None:
     expected = measure_files(tmp_path, range=tmp_path / "plain.npy", camera=camera).to_frame()
     assert expected["sphericity_3d"].notna().all()
     found = measure_files(tmp_path, range=make(tmp_path, sphere_scene()), camera=camera)
+    agree(found.to_frame(), expected)
+
+
+@pytest.mark.parametrize("name", CAMERA_FILES)
+def test_cameras(tmp_path: Path, name: str) -> None:
+    scene = sphere_scene()
+    rays = np.stack([(np.arange(320) - 159.5) / 500 + np.zeros((240, 1)),
+                     ((np.arange(240) - 119.5) / 501)[:, None] + np.zeros(320),
+                     np.ones((240, 320))], axis=-1)  # fmt: skip
+    np.save(tmp_path / "xyz.npy", rays * scene.depth_m[..., None])
+    np.save(tmp_path / "depth.npy", scene.depth_m)
+    scene_files.written(tmp_path / "plain.json", SQUARE)
+    expected = measure_files(
+        tmp_path, range=tmp_path / "xyz.npy", camera=tmp_path / "plain.json"
+    ).to_frame()
+    found = measure_files(
+        tmp_path, range=tmp_path / "depth.npy", camera=CAMERA_FILES[name](tmp_path)
+    )
     agree(found.to_frame(), expected)

@@ -19,7 +19,8 @@ MAX_LEFT_RIGHT_PX = 1  # by which the two directions of matching may differ
 UNIQUENESS_PERCENT = 5  # by which the best cost must beat the second
 SPECKLE_PX, SPECKLE_STEP_PX = 100, 1  # smaller regions that such a step cuts off are no match
 COST_BYTES = 4  # of memory, a pixel and disparity
-MAX_COST_BYTES = 2**29  # of a band of rows; what needs twice as much is refused
+BAND_BYTES = 2**28  # of the costs of a band of rows
+MAX_BAND_BYTES = 3 * 2**28  # of those of the least band with its overlaps
 OVERLAP_ROWS = 32  # of the bands that are matched one after the other
 COARSE_COLS = 320  # px, of the pictures in which the search range is looked for
 FAR_NEAR_PERCENT = (0.2, 99.8)  # of the coarse disparities, the ends of the search range
@@ -47,7 +48,7 @@ def matched_disparity(left: Bytes, right: Bytes, search: SearchRange) -> Floats:
 
     A match is unique, is found from either picture, ends within the right one and is no speckle.
     Rows are matched in bands where the whole needs too much memory.
-    Raises: InputError where even a band needs more than 1 GB.
+    Raises: InputError where even a band needs more than 0.8 GB.
     Source: Hirschmüller (2008), equations 11 to 15, in eight directions; OpenCV's StereoSGBM.
     """
     rows, cols = left.shape
@@ -66,12 +67,12 @@ def matched_disparity(left: Bytes, right: Bytes, search: SearchRange) -> Floats:
     # OpenCV gives no disparity to columns whose search leaves the right picture
     before, after = max(0, search.least + search.count), max(0, -search.least)
     row_bytes = COST_BYTES * (before + cols + after) * search.count
-    if 3 * OVERLAP_ROWS * row_bytes > 2 * MAX_COST_BYTES:
+    if 3 * OVERLAP_ROWS * row_bytes > MAX_BAND_BYTES:
         raise InputError(
-            f"stereo pair: expected pictures whose matching needs at most 1 GB, found {cols} "
+            f"stereo pair: expected pictures whose matching needs at most 0.8 GB, found {cols} "
             f"columns and {search.count} disparities; reduce both pictures"
         )
-    band = max(OVERLAP_ROWS, MAX_COST_BYTES // row_bytes)
+    band = max(OVERLAP_ROWS, BAND_BYTES // row_bytes)
     steps = np.empty((rows, cols), dtype=np.int16)
     for start in range(0, rows, band):
         first, stop = max(0, start - OVERLAP_ROWS), min(rows, start + band)

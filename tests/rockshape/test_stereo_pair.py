@@ -282,3 +282,24 @@ def test_a_failure_of_matching_is_one_line(tmp_path: Path, monkeypatch: pytest.M
     with pytest.raises(InputError, match="camera of a stereo pair, found assertion") as refused:
         rockshape.read(**files, camera=camera)
     assert "\n" not in str(refused.value)
+
+
+def test_bands_of_rows_change_little_and_wide_searches_are_refused(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    from rockshape.stereo import block_matching
+
+    left, right = shot(Lens(PINHOLE)), shot(Lens(PINHOLE), BESIDE)
+    search = block_matching.search_between(20, 70)
+    whole = block_matching.matched_disparity(left.picture, right.picture, search)
+    monkeypatch.setattr(block_matching, "BAND_BYTES", 0)
+    banded = block_matching.matched_disparity(left.picture, right.picture, search)
+    both = np.isfinite(whole) & np.isfinite(banded)
+    assert both.mean() > 0.8
+    assert (np.abs(whole - banded)[both] > 1 / 16).mean() < 0.02
+    with pytest.raises(
+        InputError, match=r"at most 0\.8 GB, found 320 columns and 1600 disparities"
+    ):
+        monkeypatch.setattr(block_matching, "MAX_BAND_BYTES", 2**27)
+        wide = block_matching.search_between(0, 1599)
+        block_matching.matched_disparity(left.picture, right.picture, wide)

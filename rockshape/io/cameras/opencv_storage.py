@@ -39,6 +39,7 @@ HEIGHT = ("image_height", "image_Height", "imageHeight", "height")
 SIZE = ("image_size", "imageSize", "size")
 LEFT, RIGHT = ("M1", "cameraMatrix1", "K1"), ("M2", "cameraMatrix2", "K2")
 LEFT_TERMS, RIGHT_TERMS = ("D1", "distCoeffs1"), ("D2", "distCoeffs2")
+MAX_NUMBERS = 1000
 FISHEYE = ("fisheye_model", "fisheye")
 
 
@@ -53,19 +54,33 @@ class _Storage:
         return next((node for node in nodes if not node.empty()), None)
 
     def numbers(self, *names: str) -> Floats | None:
-        """Matrix or list of numbers of the first name that there is."""
+        """Matrix or list of numbers of the first name that there is.
+
+        Elements are read one by one: OpenCV's own reader of matrices writes beyond them where a
+        damaged file declares another size than it has.
+        """
         node = self._node(names)
         if node is None:
             return None
-        if node.isSeq():
-            return np.array([node.at(index).real() for index in range(node.size())])
-        found = node.mat()
-        return None if found is None else np.asarray(found, dtype=np.float64)
+        listed = node.getNode("data") if node.isMap() else node
+        if not listed.isSeq() or listed.size() > MAX_NUMBERS:
+            raise ValueError(f"no numbers of {names[0]}")
+        found = np.array([_number(listed.at(index)) for index in range(listed.size())])
+        if not node.isMap():
+            return found
+        rows, cols = (int(_number(node.getNode(side))) for side in ("rows", "cols"))
+        return found.reshape(max(rows, 0), max(cols, 0))
 
     def whole(self, *names: str) -> int | None:
         """Whole number of the first name that there is."""
         node = self._node(names)
         return None if node is None or not node.isInt() else int(node.real())
+
+
+def _number(node: cv2.FileNode) -> float:
+    if not (node.isInt() or node.isReal()):
+        raise ValueError("a matrix with other than numbers")
+    return float(node.real())
 
 
 def read_opencv(file: "InputFile", info: ImageInfo | None) -> Lens:

@@ -84,7 +84,7 @@ def _lens(
 ) -> Lens:
     """Lens of a model's vectors by letter; the size is the label's, else the image's."""
     if name not in TYPES:
-        raise InputError(f"camera: MODEL_TYPE: expected {', '.join(TYPES)}, found {name}")
+        raise InputError(f"camera: MODEL_TYPE: expected {', '.join(TYPES)}, found {name[:20]}")
     missing = [letter for letter in name if letter not in components]
     if missing:
         raise InputError(f"camera: {name}: expected the vectors {name}, found no {missing[0]}")
@@ -120,7 +120,7 @@ def _numbers(values: object, name: str) -> Floats:
     try:
         return np.array([float(str(value)) for value in listed])
     except ValueError:
-        raise InputError(f"camera: component {name}: expected numbers, found {values!r}") from None
+        raise InputError(f"camera: component {name}: expected numbers, found text") from None
 
 
 PDS3 = CameraFormat(

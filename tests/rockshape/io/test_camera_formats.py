@@ -352,7 +352,19 @@ def test_the_baseline_of_a_right_camera_in_ros(tmp_path: Path) -> None:
     assert lens.disparity.baseline_m == pytest.approx(0.12)
 
 
+STORED = """%YAML:1.0
+---
+M1: !!opencv-matrix
+   rows: 3
+   cols: {cols}
+   dt: d
+   data: [ 500., 0., {cx}, 0., 501., 119.5, 0., 0., 1. ]
+"""
 WRONG = [
+    ("c.yml", STORED.format(cols=300000, cx=159.5), "cannot reshape array of size 9"),
+    ("c.yml", STORED.format(cols=-3, cx=159.5), "cannot reshape array of size 9"),
+    ("c.yml", STORED.format(cols="three", cx=159.5), "a matrix with other than numbers"),
+    ("c.yml", STORED.format(cols=3, cx="far"), "a matrix with other than numbers"),
     ("c.json", {**REALSENSE, "width": 640}, r"expected \(240, 320\) as the image has, found \(2"),
     ("c.json", {**REALSENSE, "fx": -500.0}, "fx: expected a positive number, found -500"),
     ("c.json", {**REALSENSE, "fx": 1e300}, "fx: expected at most 1e"),

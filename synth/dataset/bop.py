@@ -12,6 +12,7 @@ from synth.arrays import Floats
 from synth.camera.camera import Pose, RenderCamera
 from synth.dataset.bop_canvas import Beyond, Canvas, Window, united
 from synth.geometry.mesh import Mesh
+from synth.render.silhouettes import Cutout
 from synth.render.view import Sight
 from synth.scene.scene import SceneModel
 
@@ -81,30 +82,30 @@ def scene_gt_info(
     return {
         str(number): [
             _info(
-                silhouette,
-                view.labels == instance + 1,
+                view.silhouettes.cutout(instance),
+                view.visible(instance),
                 known,
                 canvas.beyond(instance, pose, view.boxes_px[instance]),
             )
-            for instance, silhouette in enumerate(view.silhouettes)
+            for instance in range(len(scene.rocks))
         ]
         for number, (pose, view, known) in enumerate(zip(scene.poses, views, valid, strict=True))
     }
 
 
 def _info(
-    silhouette: NDArray[np.bool_],
-    visible: NDArray[np.bool_],
+    silhouette: Cutout,
+    visible: Cutout,
     known: NDArray[np.bool_],
     beyond: Beyond,
 ) -> Table:
-    count_all = int(silhouette.sum()) + beyond.count_px
-    count_visible = int(visible.sum())
+    count_all = silhouette.count_px() + beyond.count_px
+    count_visible = visible.count_px()
     return {
-        "bbox_obj": _bop_box(_window(silhouette), beyond.window) if count_visible else _NOWHERE,
-        "bbox_visib": _bop_box(_window(visible)),
+        "bbox_obj": _bop_box(silhouette.bounds(), beyond.window) if count_visible else _NOWHERE,
+        "bbox_visib": _bop_box(visible.bounds()),
         "px_count_all": count_all,
-        "px_count_valid": int((silhouette & known).sum()),
+        "px_count_valid": int((silhouette.mask & known[silhouette.window]).sum()),
         "px_count_visib": count_visible,
         "visib_fract": count_visible / count_all if count_all else 0.0,
     }
@@ -125,17 +126,22 @@ def scene_gt_coco(
     annotations: list[Table] = []
     for number, view in enumerate(views):
         for instance in range(len(scene.rocks)):
-            visible = view.labels == instance + 1
-            if visible.any():
+            visible = view.visible(instance)
+            bounds = visible.bounds()
+            if bounds is not None:
+                left, top, right, bottom = bounds
                 annotations.append(
                     {
                         "id": len(annotations) + 1,
                         "image_id": number,
                         "category_id": first_id + instance,
                         "iscrowd": 0,
-                        "area": int(visible.sum()),
-                        "bbox": _coco_box(visible),
-                        "segmentation": {"size": visible.shape, "counts": run_lengths(visible)},
+                        "area": visible.count_px(),
+                        "bbox": [left, top, right - left, bottom - top],
+                        "segmentation": {
+                            "size": visible.shape,
+                            "counts": run_lengths(visible.whole()),
+                        },
                         "width": scene.camera.width,
                         "height": scene.camera.height,
                     }
@@ -206,22 +212,3 @@ def _bop_box(*windows: Window | None) -> list[int]:
         return _NOWHERE
     left, top, right, bottom = window
     return [left, top, right - left - 1, bottom - top - 1]
-
-
-def _coco_box(mask: NDArray[np.bool_]) -> list[int]:
-    """COCO box: left, top, width, height of a mask that is not empty, as COCO counts: in pixels."""
-    rows, cols = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
-    return [
-        int(cols[0]),
-        int(rows[0]),
-        int(cols[-1] - cols[0] + 1),
-        int(rows[-1] - rows[0] + 1),
-    ]
-
-
-def _window(mask: NDArray[np.bool_]) -> Window | None:
-    """Window that a mask fills, None where it is empty."""
-    if not mask.any():
-        return None
-    left, top, width, height = _coco_box(mask)
-    return left, top, left + width, top + height

@@ -89,8 +89,8 @@ def _rock(placed: PlacedRock, instance: int, object_id: int, model: Mesh) -> Tab
 
 
 def _visibility(camera: RenderCamera, view: Sight, instance: int) -> Table:
-    count_all = int(view.silhouettes[instance].sum())
-    count_visible = int((view.labels == instance + 1).sum())
+    count_all = view.silhouettes.cutout(instance).count_px()
+    count_visible = view.visible(instance).count_px()
     left, top, right, bottom = view.boxes_px[instance]
     inside = left >= -0.5 and top >= -0.5
     inside &= right <= camera.width - 0.5 and bottom <= camera.height - 0.5

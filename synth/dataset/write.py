@@ -44,6 +44,7 @@ from synth.light import Stage, spec_stage
 from synth.progress import counted
 from synth.render import RenderedView, open_renderer, render_view
 from synth.render.interface import Renderer
+from synth.render.silhouettes import Cutout
 from synth.render.view import Sight
 from synth.scene.scene import SceneModel, build_scene
 from synth.sensor import Capture, capture_view, sensor_of
@@ -223,11 +224,17 @@ def _write_pictures(folder: Path, number: int, capture: Capture, depth: NDArray[
 def _write_masks(folder: Path, number: int, view: Sight) -> None:
     stem = f"{number:06d}"
     write_png(folder / "labels" / f"{stem}.png", view.labels)
-    for instance, silhouette in enumerate(view.silhouettes):
+    for instance in counted(range(len(view.silhouettes)), "rocks' masks"):
         name = f"{stem}_{instance:06d}.png"
-        visible = view.labels == instance + 1
-        write_png(folder / "mask" / name, 255 * silhouette.astype(np.uint8))
-        write_png(folder / "mask_visib" / name, 255 * visible.astype(np.uint8))
+        write_png(folder / "mask" / name, _white(view.silhouettes.cutout(instance)))
+        write_png(folder / "mask_visib" / name, _white(view.visible(instance)))
+
+
+def _white(cutout: Cutout) -> NDArray[np.uint8]:
+    """Picture of the frame, (rows, cols), 255 where the mask is set."""
+    frame = np.zeros(cutout.shape, dtype=np.uint8)
+    frame[cutout.window] = np.where(cutout.mask, 255, 0)
+    return frame
 
 
 def _publish(folder: Path, out: Path, place: Path) -> None:

@@ -11,7 +11,7 @@ from synth.light import Stage
 from synth.light.colour import luminance
 from synth.render.interface import Renderer
 from synth.render.normals import normal_map
-from synth.render.silhouettes import Silhouettes
+from synth.render.silhouettes import Cutout, Silhouettes
 
 _NEAREST_M = 0.1  # what is nearer, or behind the camera, is not seen
 _SLACK = 0.05  # depth limits lie this far outside the scene's own, as a share
@@ -24,6 +24,10 @@ class Sight:
     labels: NDArray[np.uint16]  # (rows, cols), 1 + the rock's index, 0 elsewhere
     silhouettes: Silhouettes  # (rows, cols) each, as if the rock were alone
     boxes_px: tuple[Floats, ...]  # left, top, right, bottom of each rock, beyond the frame too
+
+    def visible(self, index: int) -> Cutout:
+        """Visible part of a rock's silhouette."""
+        return self.silhouettes.seen(index, self.labels)
 
 
 @dataclass(frozen=True, eq=False)

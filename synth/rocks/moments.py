@@ -35,10 +35,12 @@ def rounded_moments(polyhedron: Polyhedron, radius_m: float) -> Moments:
     ):
         corners_m = polyhedron.vertices_m[list(loop)] + radius_m * normal
         sums.add_facet(corners_m, normal, float(offset_m) + radius_m)
-    edges = polyhedron.edges()
-    for v, w, f, g in edges:
-        ends_m = polyhedron.vertices_m[[v, w]]
-        sums.add_strip(ends_m, polyhedron.normals[[f, g]], radius_m)
+    edges = [
+        _Edge((v, w), *_arc(polyhedron.normals[f], polyhedron.normals[g]))
+        for v, w, f, g in polyhedron.edges()
+    ]
+    for edge in edges:
+        sums.add_strip(polyhedron.vertices_m[list(edge.ends)], edge, radius_m)
     for vertex in range(len(polyhedron.vertices_m)):
         sums.add_cap(polyhedron.vertices_m[vertex], _cap(polyhedron, edges, vertex), radius_m)
     volume_m3 = sums.zeroth / 3.0
@@ -48,6 +50,15 @@ def rounded_moments(polyhedron: Polyhedron, radius_m: float) -> Moments:
         centroid_m=centroid_m,
         covariance_m2=sums.second / (5.0 * volume_m3) - np.outer(centroid_m, centroid_m),
     )
+
+
+@dataclass(frozen=True, eq=False)
+class _Edge:
+    """Edge of the polyhedron, and the normals between those of its two faces."""
+
+    ends: tuple[int, int]  # vertices
+    arms: Floats  # (n, 3), nodes of the great circle
+    steps_rad: Floats  # (n,)
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,9 +88,9 @@ class _Sums:
             self.first += weight * total / 3.0
             self.second += weight * squares / 12.0
 
-    def add_strip(self, ends_m: Floats, normals: Floats, radius_m: float) -> None:
-        """Add the cylinder's part along an edge's ends (2, 3) between two faces' normals (2, 3)."""
-        arms, steps_rad = _arc(*normals)
+    def add_strip(self, ends_m: Floats, edge: _Edge, radius_m: float) -> None:
+        """Add the cylinder's part along an edge with the ends (2, 3), between its faces."""
+        arms, steps_rad = edge.arms, edge.steps_rad
         along = (_NODES[:, None] + 1.0) / 2.0
         core_m = ends_m[0] + along * (ends_m[1] - ends_m[0])
         length_m = float(np.linalg.norm(ends_m[1] - ends_m[0]))
@@ -103,7 +114,7 @@ class _Sums:
         self.second += r**3 * (mixed + mixed.T) + r**4 * square
 
 
-def _cap(polyhedron: Polyhedron, edges: list[tuple[int, int, int, int]], vertex: int) -> _Cap:
+def _cap(polyhedron: Polyhedron, edges: list[_Edge], vertex: int) -> _Cap:
     """Moments of the normals at a vertex, a polygon of great circles on the sphere.
 
     Its solid angle is 2π less the face angles there (Descartes). The rest follow from it and the
@@ -112,13 +123,14 @@ def _cap(polyhedron: Polyhedron, edges: list[tuple[int, int, int, int]], vertex:
     2 ∫ uᵢ = −∮ pᵢ, 3 ∫ uᵢuⱼ = δᵢⱼ Ω − ∮ uᵢ pⱼ, 4 ∫ uᵢuⱼuₖ = δᵢₖ ∫ uⱼ + δⱼₖ ∫ uᵢ − ∮ uᵢuⱼ pₖ.
     """
     line, mixed, triple = np.zeros(3), np.zeros((3, 3)), np.zeros((3, 3, 3))
-    for v, w, f, g in edges:
-        if vertex not in (v, w):
+    for edge in edges:
+        if vertex not in edge.ends:
             continue
+        v, w = edge.ends
         far = w if vertex == v else v
         pole = polyhedron.vertices_m[far] - polyhedron.vertices_m[vertex]
         pole /= np.linalg.norm(pole)
-        arms, steps_rad = _arc(polyhedron.normals[f], polyhedron.normals[g])
+        arms, steps_rad = edge.arms, edge.steps_rad
         line += steps_rad.sum() * pole
         mixed += np.outer(steps_rad @ arms, pole)
         triple += np.einsum("n,ni,nj,k->ijk", steps_rad, arms, arms, pole)

@@ -135,7 +135,8 @@ def inradius_m(polyhedron: Polyhedron) -> float:
 
 def angle_rad(first: Floats, second: Floats) -> float:
     """Angle between two unit vectors, accurate when it is small."""
-    sine = np.linalg.norm(np.cross(first, second))
+    (a, b, c), (x, y, z) = first.tolist(), second.tolist()
+    sine = np.linalg.norm(np.array([b * z - c * y, c * x - a * z, a * y - b * x]))
     return float(np.arctan2(sine, first @ second))
 
 

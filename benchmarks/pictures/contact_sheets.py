@@ -11,7 +11,7 @@ from PIL import Image
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
-from synth.rocks import RockModel
+from synth.rocks import RockModel, quarry
 from synth.rocks.ellipsoid import ellipsoid
 from synth.rocks.polyhedron import tangent_cuts
 from synth.rocks.realistic import Realism, realistic
@@ -19,6 +19,7 @@ from synth.rocks.relief import with_relief
 from synth.rocks.rounded import UnsettledError, rounded_box, rounded_polyhedron
 from synth.rocks.scan import scan
 from synth.rocks.superellipsoid import superellipsoid
+from synth.spec.rocks import RocksSpec
 
 SIZE_PX, FIELD_M, FINE = 280, 0.6, 2
 HALF_AXES_M = np.array([0.2, 0.165, 0.125])
@@ -97,6 +98,35 @@ def rough(base: RockModel, rms: float, degrees: tuple[int, int] = (5, 25)) -> Ro
     return with_relief(base, relief_rms=rms, degrees=degrees, rng=np.random.default_rng(8))
 
 
+def concave(family: str, seed: int, abrasion: float | None = None) -> RockModel:
+    """Return a rock of a family that is not convex, worn by an amount if one is given."""
+    spec = RocksSpec(
+        count=1,
+        family=family,
+        diameter_m=(0.4, 0.4),
+        b_over_a=(0.8, 0.9),
+        c_over_b=(0.7, 0.85),
+        **({} if abrasion is None else {"abrasion": (abrasion, abrasion)}),
+    )
+    return quarry(spec, rng=np.random.default_rng(seed))[0]
+
+
+def real(folder: Path) -> np.ndarray:
+    """Return two scans, two pieces of a photograph of gravel and one of Mars, in a row."""
+    scans = sorted((folder / "rocks").glob("*.ply"))
+    tiles = [picture(scan(str(path), diameter_m=0.38), yaw_rad=0.7) for path in scans]
+    gravel = np.array(Image.open(folder / "grains" / "1_P1060330_1.jpg").convert("L"))
+    mars = np.array(Image.open(folder / "mars" / "i944014r.png").convert("L"))
+    for photo, (top, left, size) in (
+        (gravel, (160, 0, 220)),
+        (gravel, (250, 210, 200)),
+        (mars, (0, 50, 150)),
+    ):
+        tile = Image.fromarray(photo[top : top + size, left : left + size])
+        tiles.append((np.array(tile.resize((SIZE_PX, SIZE_PX))) / 255.0) ** 2.2)
+    return np.hstack(tiles)
+
+
 def sheets(scans: list[Path]) -> dict[str, list[Callable[[], RockModel]]]:
     """Return the makers of each sheet's five rocks."""
     flat = [HALF_AXES_M * [1.0, k, k**2] for k in (0.7, 0.8, 0.9, 1.0, 1.1)]
@@ -127,6 +157,14 @@ def sheets(scans: list[Path]) -> dict[str, list[Callable[[], RockModel]]]:
         "realistic-slab": [lambda k=k: broken(33, slab=k) for k in (0.0, 0.25, 0.5, 0.75, 1.0)],
         "realistic-chips": [lambda k=k: broken(45, chips=k) for k in (0, 10, 25, 60, 120)],
         "realistic": [lambda seed=seed: broken(seed) for seed in range(50, 55)],
+        **{
+            family: [lambda family=family, seed=seed: concave(family, seed) for seed in range(5)]
+            for family in ("dented", "lumpy", "broken", "vesicular", "slab")
+        },
+        "worn": [
+            lambda amount=amount: concave("broken", 1, amount)
+            for amount in (0.0, 0.1, 0.25, 0.5, 1.0)
+        ],
         "scan": [
             lambda path=path, rms=rms: (
                 scan(str(path), diameter_m=0.38)
@@ -142,8 +180,13 @@ def sheets(scans: list[Path]) -> dict[str, list[Callable[[], RockModel]]]:
 
 def draw(folder: Path) -> None:
     """Write rocks-NAME.jpg of every sheet."""
-    scans = sorted((Path(__file__).parents[2] / "examples" / "rocks").glob("*.ply"))
-    for name, makers in sheets(scans).items():
+    examples = Path(__file__).parents[2] / "examples"
+    _save(real(examples), folder / "rocks-real.jpg")
+    for name, makers in sheets(sorted((examples / "rocks").glob("*.ply"))).items():
         row = np.hstack([picture(make(), yaw_rad=0.7) for make in makers])
-        pixels = np.rint(255.0 * row ** (1.0 / 2.2)).astype(np.uint8)
-        Image.fromarray(pixels).save(folder / f"rocks-{name}.jpg", quality=88)
+        _save(row, folder / f"rocks-{name}.jpg")
+
+
+def _save(row: np.ndarray, path: Path) -> None:
+    pixels = np.rint(255.0 * row ** (1.0 / 2.2)).astype(np.uint8)
+    Image.fromarray(pixels).save(path, quality=88)

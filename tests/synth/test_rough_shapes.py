@@ -1,5 +1,7 @@
 """Rough and jagged drawn shapes: what lies on the outline, apart from the outline's own truth."""
 
+from itertools import pairwise
+
 import cv2
 import numpy as np
 import pytest
@@ -89,3 +91,57 @@ def test_sizes_and_turns_out_of_range_are_refused():
         synth.make_shapes("rough", size_px=20.0)
     with pytest.raises(SpecError, match="turn_deg: expected -360 to 360 degrees, found 400"):
         synth.make_shapes("rough", turn_deg=400.0)
+
+
+@pytest.mark.parametrize(("size_px", "bands"), [(30.0, 3), (100.0, 4), (300.0, 5), (1000.0, 5)])
+def test_silhouettes_are_rough_at_several_wavelengths_at_any_size(size_px, bands):
+    shapes, drawing = draw_named_series(
+        "rough", knobs=[0.4], seed=4, size_px=size_px, jitter_rms_px=0.0
+    )
+    row, outline = drawing.rows[0], shapes[0].outline
+    # Heights over the smooth outline, along the rays on which the waves were laid.
+    closed = np.vstack([outline.outline_px(), outline.outline_px()[:1]])
+    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(closed, axis=0), axis=1))])
+    even = np.linspace(0.0, along[-1], 20_000, endpoint=False)
+    smooth = np.column_stack([np.interp(even, along, part) for part in closed.T])
+    smooth = smooth * [1.0, -1.0] + drawing.middles_px[0]
+    middle = smooth.mean(axis=0)
+    turn = np.linspace(-np.pi, np.pi, 2048, endpoint=False)
+
+    def radii(points):
+        arms = points - middle
+        bearing = np.arctan2(arms[:, 1], arms[:, 0])
+        order = np.argsort(bearing)
+        return np.interp(
+            turn, bearing[order], np.linalg.norm(arms, axis=1)[order], period=2.0 * np.pi
+        )
+
+    heights = radii(drawing.drawn_px[0]) - radii(smooth)
+    assert np.sqrt(np.mean(heights**2)) == pytest.approx(row["roughness_rms_px"], rel=0.15)
+    # Octaves of wavelength from 2 √(A/π) down that hold a hundredth of the power at least.
+    power = np.abs(np.fft.rfft(heights)) ** 2
+    first = outline.perimeter_px() / (2.0 * np.sqrt(outline.area_px2() / np.pi))
+    edges = first * 2.0 ** (np.arange(bands + 1) - 0.5)
+    shares = [
+        power[int(np.ceil(low)) : int(high) + 1].sum() / power[1:].sum()
+        for low, high in pairwise(edges)
+    ]
+    assert min(shares) > 0.01
+    # The labels, pixels whose centres the pen enclosed, are as rough.
+    assert (drawing.labels > 0).sum() == pytest.approx(row["rough_area_px2"], rel=0.03)
+
+
+@pytest.mark.parametrize("size_px", [30.0, 200.0, 1000.0])
+@pytest.mark.parametrize("series", ["rough", "jagged"])
+def test_roundness_of_rough_shapes_is_that_of_the_form_under_them(series, size_px):
+    # Wadell's: all corners have one radius; the inscribed disc is sought in pixels of the form
+    # itself, drawn 1600 px long, whose distance transform is good to a pixel of some 500.
+    shapes, drawing = draw_named_series(series, count=2, seed=6, size_px=size_px)
+    for shape, row in zip(shapes, drawing.rows, strict=True):
+        assert row["roundness"] == shape.outline.roundness()
+        large = shape.placed(size_px=1600.0, turn_deg=0.0).outline
+        points = large.outline_px() - large.outline_px().min(axis=0) + 3.0
+        mask = np.zeros(np.ceil(points.max(axis=0)).astype(int)[::-1] + 4, np.uint8)
+        cv2.fillPoly(mask, [np.rint(points * 256.0).astype(np.int32)], 1, cv2.LINE_8, 8)
+        disc_px = cv2.distanceTransform(mask, cv2.DIST_L2, cv2.DIST_MASK_PRECISE).max()
+        assert row["roundness"] == pytest.approx(large.radius_px / disc_px, rel=5e-3)

@@ -13,7 +13,7 @@ from synth.errors import SpecError
 from synth.handle.options import SceneOptions, SpecSource, spec_of
 from synth.handle.scene import Scene
 from synth.handle.shapes import DrawnShapes
-from synth.shapes.draw import draw_named_series
+from synth.shapes.draw import DrawingOptions, draw_named_series
 from synth.spec.shapes import JITTER_RMS_PX
 
 
@@ -59,28 +59,19 @@ def make_shapes(
     """
     if seed < 0:
         raise SpecError(f"seed: expected 0 or more, found {seed}")
-    _, drawing = draw_named_series(
-        series,
-        count=count,
-        knobs=knobs,
-        seed=seed,
-        jitter_rms_px=jitter_rms_px,
-        size_px=size_px,
-        turn_deg=turn_deg,
-    )
-    truth = pd.DataFrame(drawing.rows).rename(columns={"rock": "id"}).astype({"id": int})
-    truth.insert(1, "series", series)
-    return DrawnShapes(
-        image=drawing.image,
-        labels=drawing.labels,
-        truth=truth,
-        series=series,
+    options = DrawingOptions(
         count=count,
         knobs=None if knobs is None else tuple(knobs),
         seed=seed,
         jitter_rms_px=jitter_rms_px,
         size_px=size_px,
         turn_deg=turn_deg,
+    )
+    _, drawing = draw_named_series(series, **options)
+    truth = pd.DataFrame(drawing.rows).rename(columns={"rock": "id"}).astype({"id": int})
+    truth.insert(1, "series", series)
+    return DrawnShapes(
+        image=drawing.image, labels=drawing.labels, truth=truth, series=series, options=options
     )
 
 

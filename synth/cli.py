@@ -13,6 +13,11 @@ from typing import get_args
 import msgspec
 
 from synth.bed.command import add_bed_arguments, run_bed
+from synth.dataset.arguments import (
+    add_dataset_arguments,
+    check_dataset_arguments,
+    check_number,
+)
 from synth.errors import SpecError
 from synth.spec import MAX_SCENES, RendererName, SceneSpec, convert_spec, load_spec
 from synth.spec.dataset import LayoutName
@@ -24,7 +29,6 @@ from synth.spec.wording import expected_one_of
 
 HELP = "generate rocks of known shape: scenes, gravel beds or drawn shapes, with their ground truth"
 
-_MAX_SEED = 2**63
 _SPEC_OPTIONS = ("spec", "seed", "scenes", "rocks", "views", "camera", "renderer", "noise")
 _DATASET_OPTIONS = ("split", "layout", "yolo")
 _EXAMPLES = """examples:
@@ -52,9 +56,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         epilog=_SCENE_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    scene.add_argument("out", metavar="OUT", type=Path, help="folder of the dataset")
-    scene.add_argument("--spec", metavar="FILE.toml", type=Path, help="specification to start from")
-    scene.add_argument("--seed", metavar="N", type=int, help="random seed (default 0)")
+    add_dataset_arguments(scene)
     scene.add_argument("--scenes", metavar="N", type=int, help="number of scenes (default 1)")
     scene.add_argument("--rocks", metavar="N", type=int, help="rocks in a scene (default 6)")
     scene.add_argument("--views", metavar="N", type=int, help="views of a scene (default 4)")
@@ -77,13 +79,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         help="import a module that registers sensors or rock families",
-    )
-    scene.add_argument("--jobs", metavar="N", type=int, default=1, help="processes (default 1)")
-    scene.add_argument(
-        "--replay",
-        metavar="MANIFEST.json",
-        type=Path,
-        help="generate a manifest's dataset again and compare the hash of every file",
     )
     add_bed_arguments(kinds)
     shapes = kinds.add_parser(
@@ -150,12 +145,10 @@ def _run_scene(args: argparse.Namespace) -> int:
     from synth.dataset.generate import generate_dataset  # noqa: PLC0415
     from synth.dataset.replay import replay_dataset  # noqa: PLC0415
 
-    if args.jobs < 1:
-        raise SpecError(f"--jobs: expected 1 or more, found {args.jobs}")
+    check_dataset_arguments(args, (*_SPEC_OPTIONS, *_DATASET_OPTIONS))
     for name in args.plugin:
         _import_plugin(name)
     if args.replay is not None:
-        _reject_beside_replay(args)
         print(replay_dataset(args.replay, args.out, jobs=args.jobs, show_progress=True))
         return 0
     generate_dataset(_spec(args), args.out, jobs=args.jobs, show_progress=True)
@@ -189,16 +182,6 @@ def _named_as_option(text: str) -> str:
     return f"--{options[name]}:{rest}" if name in options else text
 
 
-def _reject_beside_replay(args: argparse.Namespace) -> None:
-    """Reject options that would describe another dataset than the manifest's."""
-    for option in (*_SPEC_OPTIONS, *_DATASET_OPTIONS):
-        if getattr(args, option) is not None:
-            raise SpecError(
-                f"--{option}: expected none beside --replay, whose manifest holds the spec, "
-                f"found {getattr(args, option)}"
-            )
-
-
 def _numbers(option: str, text: str | None) -> list[float] | None:
     """Comma-separated numbers, None where the option was not given."""
     if text is None:
@@ -216,11 +199,7 @@ def _spec(args: argparse.Namespace) -> SceneSpec:
     _require("--layout", args.layout, get_args(LayoutName))
     _require("--noise", args.noise, SENSORS.names)
     for option, most in (("scenes", MAX_SCENES), ("rocks", MAX_COUNT), ("views", MAX_COUNT)):
-        value = getattr(args, option)
-        if value is not None and not 1 <= value <= most:
-            raise SpecError(f"--{option}: expected 1 to {most}, found {value}")
-    if args.seed is not None and not 0 <= args.seed < _MAX_SEED:
-        raise SpecError(f"--seed: expected 0 or more, below 2^63, found {args.seed}")
+        check_number(args, option, most)
     spec = SceneSpec() if args.spec is None else load_spec(args.spec)
     table = msgspec.to_builtins(spec)
     for part, key, value in (

@@ -105,3 +105,19 @@ def test_the_architecture_page_names_every_entry_point_group():
     )
     assert {group for group in told if f'"{group}"' not in text} == set()
     assert set(re.findall(r'(?i)group ?= ?"([\w.]+)"', text)) <= told
+
+
+OWN_FILES = {"my_measures.py", "compactness.py", "bright.py", "dark.py", "coins_kind.py", "disc.py"}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_every_module_that_a_page_names_exists(page):
+    modules = [path.relative_to(ROOT).as_posix() for path in _modules()]
+    for name in re.findall(r"`([\w/]+\.py)`", page.read_text(encoding="utf-8")):
+        if name not in OWN_FILES and not name.endswith("/NAME.py"):
+            assert any(f"/{module}".endswith(f"/{name}") for module in modules), name
+
+
+def _modules() -> list[Path]:
+    folders = (*PACKAGES, "benchmarks", "tests", "tools", "examples")
+    return [path for folder in folders for path in (ROOT / folder).rglob("*.py")]

@@ -1,8 +1,9 @@
 """Ellipsoids of the points seen on a rock: by range alone, and held by silhouette and ground."""
 
+from rockshape.ellipsoid.cloud import MIN_POINTS
 from rockshape.ellipsoid.constrained_fit import HeldEllipsoid, Resting, fit_held_ellipsoid
 from rockshape.ellipsoid.distance import hausdorff_m, orthogonal_distance_m
-from rockshape.ellipsoid.fit import MIN_POINTS, EllipsoidFit, fit_ellipsoid
+from rockshape.ellipsoid.fit import EllipsoidFit, fit_ellipsoid
 from rockshape.ellipsoid.half_axes import Ellipsoid
 from rockshape.ellipsoid.outliers import fit_without_outliers
 

@@ -6,8 +6,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from rockshape.ellipsoid.cloud import MIN_POINTS
 from rockshape.ellipsoid.descent import descend
-from rockshape.ellipsoid.fit import MIN_POINTS
 from rockshape.ellipsoid.half_axes import Ellipsoid
 from rockshape.ellipsoid.parameters import Bounds, State
 from rockshape.ellipsoid.residuals import (

@@ -5,12 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from rockshape.ellipsoid.cloud import cloud_of
 from rockshape.ellipsoid.descent import descend
 from rockshape.ellipsoid.half_axes import Ellipsoid
-from rockshape.ellipsoid.parameters import State
 from rockshape.ellipsoid.radial_cost import Radial
 
-MIN_POINTS = 30  # nine unknowns and some to spare
 LARGEST = 3.0  # longest half-axis allowed, in sizes of the cloud: a flat face asks for infinity
 SMALLEST = 0.02
 SKETCH = 400  # points on which the starts compete, before all decide
@@ -43,56 +42,30 @@ def fit_ellipsoid(points_m: NDArray[np.float64]) -> EllipsoidFit | None:
     None for fewer than 30 points, or where they lie in one plane.
     Source: Fox et al. (2002), equations 8 and 11; the axes are sorted after the fit.
     """
-    if len(points_m) < MIN_POINTS:
+    cloud = cloud_of(points_m)
+    if cloud is None:
         return None
-    centroid = points_m.mean(axis=0)
-    spread, directions = np.linalg.eigh(np.cov(points_m.T, bias=True))
-    if spread[0] <= 1e-12 * spread[2]:
-        return None
-    size = float(np.sqrt(((points_m - centroid) ** 2).sum(axis=1).max()))
-    points = (points_m - centroid) / size
+    points = cloud.points
     bounds = (np.log(SMALLEST), np.log(LARGEST))
     # a fixed shuffle's first: every k-th in order would pick columns of the image
     chosen = np.random.default_rng(0).permutation(len(points))[:SKETCH]
     sketch = Radial(np.ascontiguousarray(points[chosen].T))
-    distance = float(np.sqrt(centroid @ centroid))
-    view = centroid / distance if distance > 0 else directions[:, 0]
-    starts = starting_states(spread / size**2, directions, view)
+    distance = float(np.sqrt(cloud.centroid_m @ cloud.centroid_m))
+    view = cloud.centroid_m / distance if distance > 0 else cloud.directions[:, 0]
+    starts = cloud.starting_states(view)
     runs = [descend(sketch, start, bounds, enough=COMPARED) for start in starts]
     nearest = min(runs, key=lambda run: run.cost).state
     nearest = descend(sketch, nearest, bounds, enough=SKETCHED).state
     best = descend(
         Radial(np.ascontiguousarray(points.T)), nearest, bounds, enough=SETTLED, whole=True
     )
-    unit = best.state.ellipsoid()
     edge = 1e-9
     return EllipsoidFit(
-        ellipsoid=Ellipsoid(
-            centre_m=centroid + size * unit.centre_m,
-            half_axes_m=size * unit.half_axes_m,
-            axes=unit.axes,
-        ),
-        mean_square_m2=2 * best.cost / len(points) * size**2,
+        ellipsoid=cloud.in_metres(best.state.ellipsoid()),
+        mean_square_m2=2 * best.cost / len(points) * cloud.size_m**2,
         converged=best.converged,
         bounded=bool(
             best.state.log_axes.max() >= bounds[1] - edge
             or best.state.log_axes.min() <= bounds[0] + edge
         ),
     )
-
-
-def starting_states(
-    spread: NDArray[np.float64], directions: NDArray[np.float64], view: NDArray[np.float64]
-) -> list[State]:
-    """Centres at and behind the visible surface, with the cloud's own axes.
-
-    A cap of a sphere seen from outside has its centre behind its centroid, so the starts move the
-    centre along the view by none, a half and one standard length of the cloud.
-    """
-    deviations = np.sqrt(np.maximum(spread, 1e-6))
-    axes = np.maximum(np.sqrt(3) * deviations, np.sqrt(3) * deviations[2] / 3)
-    rotation = directions * np.sign(np.linalg.det(directions))
-    return [
-        State(centre=back * deviations[2] * view, log_axes=np.log(axes), rotation=rotation)
-        for back in (0.0, 0.5, 1.0)
-    ]

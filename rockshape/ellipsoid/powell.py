@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
+from rockshape.ellipsoid.cloud import cloud_of
 from rockshape.ellipsoid.distance import hausdorff_m
-from rockshape.ellipsoid.fit import MIN_POINTS, EllipsoidFit, starting_states
+from rockshape.ellipsoid.fit import EllipsoidFit
 from rockshape.ellipsoid.half_axes import Ellipsoid
 
 HAUSDORFF_SAMPLES = 512  # of the surface while searching
@@ -45,23 +46,15 @@ def fit_by_powell(
     None where `fit_ellipsoid` gives None for want of points or extent.
     Source: Fox et al. (2002), equations 8 to 11.
     """
-    if len(points_m) < MIN_POINTS:
+    cloud = cloud_of(points_m)
+    if cloud is None:
         return None
-    centroid = points_m.mean(axis=0)
-    spread, directions = np.linalg.eigh(np.cov(points_m.T, bias=True))
-    if spread[0] <= 1e-12 * spread[2]:
-        return None
-    size = float(np.linalg.norm(points_m - centroid, axis=1).max())
-    points = (points_m - centroid) / size
+    points = cloud.points
     if near is None:
-        view = centroid / max(float(np.linalg.norm(centroid)), 1e-300)
-        start = starting_states(spread / size**2, directions, view)[1].ellipsoid()
+        view = cloud.centroid_m / max(float(np.linalg.norm(cloud.centroid_m)), 1e-300)
+        start = cloud.starting_states(view)[1].ellipsoid()
     else:
-        start = Ellipsoid(
-            centre_m=(near.ellipsoid.centre_m - centroid) / size,
-            half_axes_m=near.ellipsoid.half_axes_m / size,
-            axes=near.ellipsoid.axes,
-        )
+        start = cloud.scaled(near.ellipsoid)
     columns = np.ascontiguousarray(points.T)
     base = start.axes.T  # the angles turn the start's axes, away from the poles of R1 R2 R3
 
@@ -89,14 +82,9 @@ def fit_by_powell(
         method="Powell",
         options={"xtol": tolerance, "ftol": tolerance, "maxiter": 2000, "maxfev": 400_000},
     )
-    unit = unpack(result.x)
     return PowellFit(
-        ellipsoid=Ellipsoid(
-            centre_m=centroid + size * unit.centre_m,
-            half_axes_m=size * unit.half_axes_m,
-            axes=unit.axes,
-        ),
-        distance=float(result.fun) * (size**2 if distance == "square" else size),
+        ellipsoid=cloud.in_metres(unpack(result.x)),
+        distance=float(result.fun) * cloud.size_m ** (2 if distance == "square" else 1),
         converged=bool(result.success),
         evaluations=int(result.nfev),
     )

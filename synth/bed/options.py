@@ -4,14 +4,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypedDict
 
-import msgspec
-
-from synth.errors import SpecError
-from synth.handle.options import merged
 from synth.spec.bed import BedSpec, convert_bed_spec, load_bed_spec
-from synth.spec.wording import unknown_name
+from synth.spec.source import Table, check_names, merged, tables_of
 
-Table = Mapping[str, Any]
 BedSource = BedSpec | Table | str | Path
 
 
@@ -36,24 +31,6 @@ def bed_spec_of(source: object, options: Mapping[str, Any], *, where: str) -> Be
     Raises:
         SpecError: an option that does not exist, or a key or value that is not allowed.
     """
-    for name in options:
-        if name not in BedOptions.__annotations__:
-            raise SpecError(
-                f"{where}: {unknown_name('argument', name, BedOptions.__annotations__)}"
-            )
-    table: Table
-    match source:
-        case None:
-            table = {}
-        case BedSpec():
-            table = msgspec.to_builtins(source)
-        case str() | Path():
-            table = msgspec.to_builtins(load_bed_spec(Path(source)))
-        case Mapping():
-            table = source
-        case _:
-            raise SpecError(
-                f"{where}: spec: expected a path to a TOML file, a BedSpec or a table, "
-                f"found {type(source).__name__}"
-            )
-    return convert_bed_spec(merged(table, options), where=where)
+    check_names(options, BedOptions.__annotations__, where=where)
+    table = tables_of(source, BedSpec, load_bed_spec, where=where)
+    return convert_bed_spec(merged(merged({}, table), options), where=where)

@@ -5,13 +5,10 @@ from pathlib import Path
 from typing import Any, TypedDict
 
 import msgspec
-import numpy as np
 
-from synth.errors import SpecError
 from synth.spec import SceneSpec, convert_spec, load_spec
-from synth.spec.wording import unknown_name
+from synth.spec.source import Table, check_names, merged, tables_of
 
-Table = Mapping[str, Any]
 SpecSource = SceneSpec | Table | str | Path
 
 # The key of each table that a plain value stands for.
@@ -57,12 +54,9 @@ def spec_of(source: SpecSource | None, options: Mapping[str, Any]) -> SceneSpec:
         SpecError: an option that does not exist, or a key or value that is not allowed.
     """
     where = "make_scene"
-    for name in options:
-        if name not in SceneOptions.__annotations__:
-            raise SpecError(
-                f"{where}: {unknown_name('argument', name, SceneOptions.__annotations__)}"
-            )
-    return convert_spec(plain(merged(_table(source), _tables(options))), where=where)
+    check_names(options, SceneOptions.__annotations__, where=where)
+    table = tables_of(source, SceneSpec, load_spec, where=where)
+    return convert_spec(merged(merged({}, table), _tables(options)), where=where)
 
 
 def with_noise(spec: SceneSpec, noise: str | Table | None) -> SceneSpec:
@@ -78,23 +72,6 @@ def with_noise(spec: SceneSpec, noise: str | Table | None) -> SceneSpec:
     )
 
 
-def _table(source: object) -> Table:
-    """Plain tables of a specification in any of its forms."""
-    table: Table = {}
-    if isinstance(source, SceneSpec):
-        table = msgspec.to_builtins(source)
-    elif isinstance(source, str | Path):
-        table = msgspec.to_builtins(load_spec(Path(source)))
-    elif isinstance(source, Mapping):
-        table = source
-    elif source is not None:
-        raise SpecError(
-            "make_scene: spec: expected a path to a TOML file, a SceneSpec or a table, "
-            f"found {type(source).__name__}"
-        )
-    return table
-
-
 def _tables(options: Mapping[str, Any]) -> dict[str, Any]:
     """Options as the tables of a specification."""
     tables = {
@@ -104,24 +81,3 @@ def _tables(options: Mapping[str, Any]) -> dict[str, Any]:
     }
     own = {name: options[name] for name in _OF_ROCKS if name in options}
     return merged(tables, {"rocks": own}) if own else tables
-
-
-def plain(table: Table) -> dict[str, Any]:
-    """Table with Python's numbers and lists in place of numpy's."""
-    return {
-        key: plain(value)
-        if isinstance(value, Mapping)
-        else value.tolist()
-        if isinstance(value, np.generic | np.ndarray)
-        else value
-        for key, value in table.items()
-    }
-
-
-def merged(one: Table, two: Table) -> dict[str, Any]:
-    """The first table with what the second says; tables within are merged, all else replaced."""
-    both = {**one, **two}
-    for key in one.keys() & two.keys():
-        if isinstance(one[key], Mapping) and isinstance(two[key], Mapping):
-            both[key] = merged(one[key], two[key])
-    return both

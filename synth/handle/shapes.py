@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from synth.arrays import LabelImage
 from synth.handle.html import figure_html
+from synth.shapes.draw import DrawingOptions
 from synth.shapes.write import write_series
 
 if TYPE_CHECKING:
@@ -23,12 +24,7 @@ class DrawnShapes:
     labels: LabelImage  # (rows, cols), the value of a shape's `id` in `truth`, 0 elsewhere
     truth: "pd.DataFrame"  # one row a shape, of its exact outline
     series: str
-    count: int | None
-    knobs: tuple[float, ...] | None
-    seed: int
-    jitter_rms_px: float
-    size_px: float | None = None
-    turn_deg: float = 0.0
+    options: DrawingOptions
 
     def write(self, folder: str | Path) -> None:
         """Write image.png, image.svg, labels.png and truth.csv into a folder.
@@ -36,16 +32,7 @@ class DrawnShapes:
         Raises:
             SpecError: a folder that is a file or holds other files.
         """
-        write_series(
-            self.series,
-            Path(folder),
-            count=self.count,
-            knobs=self.knobs,
-            seed=self.seed,
-            jitter_rms_px=self.jitter_rms_px,
-            size_px=self.size_px,
-            turn_deg=self.turn_deg,
-        )
+        write_series(self.series, Path(folder), **self.options)
 
     def __repr__(self) -> str:
         """Return the series, the number of shapes and the image's size."""

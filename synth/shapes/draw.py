@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TypedDict
 
 import cv2
 import numpy as np
@@ -84,6 +85,17 @@ def draw_series(
         drawn_px=tuple(lines),
         middles_px=np.array(middles),
     )
+
+
+class DrawingOptions(TypedDict, total=False):
+    """Keywords of `draw_named_series`."""
+
+    count: int | None
+    knobs: Sequence[float] | None
+    seed: int
+    jitter_rms_px: float
+    size_px: float | None
+    turn_deg: float
 
 
 def draw_named_series(

@@ -6,45 +6,29 @@ import shutil
 from collections.abc import Sequence
 from pathlib import Path
 from tempfile import mkdtemp
+from typing import Unpack
 
 from synth.dataset.files import write_png
 from synth.dataset.folder_lock import folder_lock
 from synth.errors import SpecError
-from synth.shapes.draw import draw_named_series
+from synth.shapes.draw import DrawingOptions, draw_named_series
 from synth.shapes.svg import svg_text
-from synth.spec.shapes import JITTER_RMS_PX
 
 _DRAFT = ".rockshape-"  # begins the folder of files that are not whole yet
 _FILES = ("image.png", "image.svg", "labels.png", "truth.csv")
 
 
-def write_series(
-    series: str,
-    out: Path,
-    *,
-    count: int | None = None,
-    knobs: Sequence[float] | None = None,
-    seed: int = 0,
-    jitter_rms_px: float = JITTER_RMS_PX,
-    size_px: float | None = None,
-    turn_deg: float = 0.0,
-) -> None:
+def write_series(series: str, out: Path, **options: Unpack[DrawingOptions]) -> None:
     """Write image.png, image.svg, labels.png and truth.csv of a series into a folder.
+
+    The options are those of `draw_named_series`.
 
     Raises:
         SpecError: an unknown series, a count, values, jitter, size or turn out of range, or
             a folder that is a file, holds other files or is being written by another run.
     """
     _check_free(out)
-    shapes, drawing = draw_named_series(
-        series,
-        count=count,
-        knobs=knobs,
-        seed=seed,
-        jitter_rms_px=jitter_rms_px,
-        size_px=size_px,
-        turn_deg=turn_deg,
-    )
+    shapes, drawing = draw_named_series(series, **options)
     svg = svg_text(shapes, drawing.drawn_px, drawing.middles_px, shape=drawing.labels.shape)
     try:
         with folder_lock(out):

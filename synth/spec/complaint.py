@@ -45,7 +45,7 @@ def describe(info: inspect.Type) -> str:
         case inspect.LiteralType():
             words = f"one of {', '.join(str(value) for value in info.values)}"
         case inspect.UnionType():
-            words = " or ".join(describe(each) for each in info.types)
+            words = " or ".join(dict.fromkeys(describe(each) for each in info.types))
         case inspect.TupleType():
             kinds = dict.fromkeys(describe(each) for each in info.item_types)
             words = f"a list of {len(info.item_types)} ({', '.join(kinds)})"
@@ -104,7 +104,8 @@ def _of_table(table: Mapping[str, Any], structs: list[inspect.StructType], path:
             if found is not None:
                 return found
         elif field.required:
-            return f"{_dotted(path, field.encode_name)}: expected a value, found none"
+            here = _dotted(path, field.encode_name)
+            return f"{here}: expected {describe(inspect.type_info(hints[field.name]))}, found none"
     return _own_complaint(table, info.cls, names, path)
 
 

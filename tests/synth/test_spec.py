@@ -133,9 +133,9 @@ class Page(Struct, frozen=True, forbid_unknown_fields=True):
 @pytest.mark.parametrize(
     ("table", "words"),
     [
-        ({}, "figure: expected a value, found none"),
+        ({}, "figure: expected a list of at least 1 (a table), found none"),
         ({"figures": []}, "unknown key 'figures'; did you mean 'figure'?"),
-        ({"figure": []}, "figure: expected a list of at least 1 (a table or a table), found []"),
+        ({"figure": []}, "figure: expected a list of at least 1 (a table), found []"),
         (
             {"figure": [{"kind": "cicle"}]},
             "figure[0].kind: expected one of circle, polygon, found 'cicle'; "

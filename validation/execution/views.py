@@ -22,7 +22,7 @@ from synth.camera.camera import RenderCamera
 from synth.dataset.write import write_common, write_scene
 from synth.render import choose_backend
 from synth.render.view import RenderedView
-from synth.sensor.sensor import Capture
+from synth.sensor.sensor import Capture, find_sensor
 from synth.spec import SceneSpec
 from validation.records.truth import (
     RockInView,
@@ -57,14 +57,14 @@ def dataset_views(spec: SceneSpec, *, exact: bool = False) -> tuple[list[SceneVi
 
     With `exact`, exact range is read too where the sensor's has noise; otherwise it is the same.
     """
-    backend = choose_backend(spec.renderer)
+    backend, sensor = choose_backend(spec.renderer), find_sensor(spec.noise.kind)
     with _data_folder() as folder:
         write_scene(spec, 0, backend, folder)
         write_common(spec, backend, folder)
         camera = read_camera(folder / "camera.json")
         scene = folder / "000000"
         truth = read_scene_truth(scene / "scene_gt_shape.json")
-        exact_folder = "depth_true" if exact and spec.noise.kind != "none" else "depth"
+        exact_folder = "depth_true" if exact and not sensor.exact_range else "depth"
         views = []
         for number in range(spec.views.count):
             name = f"{number:06d}.png"

@@ -5,7 +5,7 @@ two rocks it came from. Statistics of pooled pairs can then be weighted by rock,
 bootstrap over rocks (not over pairs, which are not independent) needs.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -79,15 +79,24 @@ def _signs(differences: NDArray[np.float64], margin: float) -> NDArray[np.int8]:
     return (np.sign(differences) * (np.abs(differences) > margin)).astype(np.int8)
 
 
-_Part = tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]
+_Index = NDArray[np.intp]
+_Differences = tuple[NDArray[np.float64], NDArray[np.float64]]  # of each pair: expected, found
+_OfBlock = Callable[[Block, _Index, _Index], Iterator[_Differences]]
 
 
-def _pool(parts: Iterator[_Part], *, rocks: int, truth_margin: float, value_margin: float) -> Pairs:
-    columns = list(zip(*parts, strict=True))
-    if not columns:
+def _pool(
+    blocks: Sequence[Block], differences: _OfBlock, *, truth_margin: float, value_margin: float
+) -> Pairs:
+    """Pairs of all blocks, of each block's two rocks (i, j) as many as it has differences."""
+    parts, rocks = [], 0
+    for block in blocks:
+        i, j = np.triu_indices(block.rocks, 1)
+        parts += [(rocks + i, rocks + j, *each) for each in differences(block, i, j)]
+        rocks += block.rocks
+    if not parts:
         no_index, no_sign = np.empty(0, np.intp), np.empty(0, np.int8)
         return Pairs(no_index, no_index, no_sign, no_sign, rocks)
-    first, second, expected, found = (np.concatenate(column) for column in columns)
+    first, second, expected, found = (np.concatenate(column) for column in zip(*parts, strict=True))
     measured = np.isfinite(found) & np.isfinite(expected)
     return Pairs(
         first=first[measured].astype(np.intp),
@@ -96,10 +105,6 @@ def _pool(parts: Iterator[_Part], *, rocks: int, truth_margin: float, value_marg
         found=_signs(found[measured], value_margin),
         rocks=rocks,
     )
-
-
-def _offsets(blocks: Sequence[Block]) -> list[int]:
-    return [0, *np.cumsum([block.rocks for block in blocks]).tolist()]
 
 
 def within_views(
@@ -111,18 +116,11 @@ def within_views(
     `value_margin` is a tie. Pairs with an unmeasured rock are left out.
     """
 
-    def parts() -> Iterator[_Part]:
-        for block, offset in zip(blocks, _offsets(blocks), strict=False):
-            i, j = np.triu_indices(block.rocks, 1)
-            for values, truth in zip(block.values, block.view_truth, strict=True):
-                yield offset + i, offset + j, truth[i] - truth[j], values[i] - values[j]
+    def differences(block: Block, i: _Index, j: _Index) -> Iterator[_Differences]:
+        for values, truth in zip(block.values, block.view_truth, strict=True):
+            yield truth[i] - truth[j], values[i] - values[j]
 
-    return _pool(
-        parts(),
-        rocks=_offsets(blocks)[-1],
-        truth_margin=truth_margin,
-        value_margin=value_margin,
-    )
+    return _pool(blocks, differences, truth_margin=truth_margin, value_margin=value_margin)
 
 
 def across_views(
@@ -134,20 +132,13 @@ def across_views(
     27 for table 3. Margins as in `within_views`.
     """
 
-    def parts() -> Iterator[_Part]:
-        for block, offset in zip(blocks, _offsets(blocks), strict=False):
-            i, j = np.triu_indices(block.rocks, 1)
-            shown = list(zip(block.values, block.view_truth, strict=True))
-            for one, here in shown:
-                for other, there in shown:
-                    yield offset + i, offset + j, here[i] - there[j], one[i] - other[j]
+    def differences(block: Block, i: _Index, j: _Index) -> Iterator[_Differences]:
+        shown = list(zip(block.values, block.view_truth, strict=True))
+        for one, here in shown:
+            for other, there in shown:
+                yield here[i] - there[j], one[i] - other[j]
 
-    return _pool(
-        parts(),
-        rocks=_offsets(blocks)[-1],
-        truth_margin=truth_margin,
-        value_margin=value_margin,
-    )
+    return _pool(blocks, differences, truth_margin=truth_margin, value_margin=value_margin)
 
 
 def between_views(blocks: Sequence[Block]) -> Pairs:
@@ -156,14 +147,12 @@ def between_views(blocks: Sequence[Block]) -> Pairs:
     No truth enters: τ_b of these pairs says whether the views agree with each other.
     """
 
-    def parts() -> Iterator[_Part]:
-        for block, offset in zip(blocks, _offsets(blocks), strict=False):
-            i, j = np.triu_indices(block.rocks, 1)
-            for k, one in enumerate(block.values):
-                for other in block.values[k + 1 :]:
-                    yield offset + i, offset + j, one[i] - one[j], other[i] - other[j]
+    def differences(block: Block, i: _Index, j: _Index) -> Iterator[_Differences]:
+        for k, one in enumerate(block.values):
+            for other in block.values[k + 1 :]:
+                yield one[i] - one[j], other[i] - other[j]
 
-    return _pool(parts(), rocks=_offsets(blocks)[-1], truth_margin=0.0, value_margin=0.0)
+    return _pool(blocks, differences, truth_margin=0.0, value_margin=0.0)
 
 
 def tau_b(pairs: Pairs, rock_weights: NDArray[np.float64] | None = None) -> float:

@@ -22,6 +22,13 @@ def check_scene_is_single(scene: SceneSpec) -> None:
         raise ValueError("expected no table dataset under scene, found one")
 
 
+def has_exact_range(scene: SceneSpec) -> bool:
+    """Whether the sensor of a scene measures the exact range."""
+    from synth.sensor import find_sensor  # noqa: PLC0415 (slow to import, and not for a parser)
+
+    return find_sensor(scene.noise.kind).exact_range
+
+
 def with_renderer(scene: SceneSpec) -> SceneSpec:
     """Scene with the renderer that this machine has in place of `auto`.
 

@@ -10,7 +10,7 @@ from synth.spec.ground import GroundSpec
 from synth.spec.limits import Degrees
 from synth.spec.view import SunSpec
 from validation.suite.experiment import MeasuredExperiment
-from validation.suite.scene import with_renderer
+from validation.suite.scene import has_exact_range, with_renderer
 
 CLEAN, FOUND, NOISY = STATES = ("clean", "found", "noisy")
 
@@ -47,8 +47,10 @@ class DesignExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="desig
                 "expected seed, scenes, suns, distances_m and rolls_deg beside the experiment's "
                 "name, found one of them under scene"
             )
-        if scene.noise.kind == "none":
-            raise ValueError("scene.noise.kind: expected stereo or sgm, found none")
+        if has_exact_range(scene):
+            raise ValueError(
+                f"scene.noise.kind: expected a sensor with noise, found {scene.noise.kind}"
+            )
         if scene.population.kind != "count" or scene.ground != GroundSpec():
             raise ValueError("scene: expected counted rocks on the plain level ground")
         if scene.views.count < 2 or scene.views.path == "drive-by":

@@ -16,7 +16,8 @@ def _documented(kind: str) -> dict[str, str]:
     """Default of each key in the table below the line that names the kind."""
     tables = KEYS.split("\nOf ")[1:]
     (text,) = (each for each in tables if f"`{kind}`" in each.split(":\n")[0])
-    return {key: default for keys, default, *_ in rows(text) for key in names(keys)}
+    table = text.split("\n\n")[1]
+    return {key: default for keys, default, *_ in rows(table) for key in names(keys)}
 
 
 def test_the_keys_of_all_kinds_are_told() -> None:
@@ -29,7 +30,7 @@ def _default(field: msgspec.structs.FieldInfo) -> str:
     """Default as the page writes it."""
     value = field.default
     if value is msgspec.NODEFAULT:
-        return "" if field.default_factory is msgspec.NODEFAULT else "all defaults"
+        return "required" if field.default_factory is msgspec.NODEFAULT else "all defaults"
     if isinstance(value, msgspec.Struct):
         return "all defaults"
     if isinstance(value, tuple):

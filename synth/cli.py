@@ -198,8 +198,9 @@ def _spec(args: argparse.Namespace) -> SceneSpec:
     _require("--renderer", args.renderer, get_args(RendererName))
     _require("--layout", args.layout, get_args(LayoutName))
     _require("--noise", args.noise, SENSORS.names)
-    for option, most in (("scenes", MAX_SCENES), ("rocks", MAX_COUNT), ("views", MAX_COUNT)):
+    for option, most in (("scenes", MAX_SCENES), ("views", MAX_COUNT)):
         check_number(args, option, most)
+    check_number(args, "rocks", MAX_COUNT, least=0)
     spec = SceneSpec() if args.spec is None else load_spec(args.spec)
     table = msgspec.to_builtins(spec)
     for part, key, value in (

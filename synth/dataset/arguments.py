@@ -43,12 +43,12 @@ def check_dataset_arguments(args: argparse.Namespace, options: Iterable[str]) ->
             )
 
 
-def check_number(args: argparse.Namespace, option: str, most: int) -> None:
-    """Check that an option, if it is given, is from 1 to `most`.
+def check_number(args: argparse.Namespace, option: str, most: int, *, least: int = 1) -> None:
+    """Check that an option, if it is given, is from `least` to `most`.
 
     Raises:
         SpecError: it is not.
     """
     value = getattr(args, option)
-    if value is not None and not 1 <= value <= most:
-        raise SpecError(f"--{option}: expected 1 to {most}, found {value}")
+    if value is not None and not least <= value <= most:
+        raise SpecError(f"--{option}: expected {least} to {most}, found {value}")

@@ -25,6 +25,7 @@ def scene_glb(stage: Stage) -> bytes:
     reach_m = _reach_m(stage)
     bodies = [(f"rock_{instance:06d}", rock) for instance, rock in enumerate(stage.rocks)]
     cut = (_near(body, reach_m) for body in stage.ground)
+    bodies += [(f"thing_{number:06d}", thing) for number, thing in enumerate(stage.things)]
     bodies += [(f"ground_{index:06d}", body) for index, body in enumerate(cut) if len(body.faces)]
     for name, body in bodies:
         scene.add_geometry(_geometry(body), node_name=name, geom_name=name, transform=_Y_UP)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 import numpy as np
+from msgspec import UNSET
 
 from synth.arrays import Floats
 from synth.errors import SpecError
@@ -94,9 +95,15 @@ def picture_folder(spec: SceneSpec) -> str:
 
 
 def image_folders(spec: SceneSpec) -> list[str]:
-    """Folders of a scene that [image] adds."""
+    """Folders of a scene that [image] and [things] add."""
     image = image_of(spec)
-    return [name for name, made in (("rgb", image.colour), ("normals", image.normals)) if made]
+    wanted = (("rgb", image.colour), ("normals", image.normals), ("not_rock", has_things(spec)))
+    return [name for name, made in wanted if made]
+
+
+def has_things(spec: SceneSpec) -> bool:
+    """Whether a spec speaks of things that are no rocks."""
+    return spec.things is not UNSET
 
 
 def model_origins_m(spec: SceneSpec, scene: SceneModel) -> list[Floats]:

@@ -9,6 +9,7 @@ from typing import Any
 
 import msgspec
 import numpy as np
+from msgspec import UNSET
 from numpy.typing import NDArray
 
 from synth.camera.calibration import calibrated, reported_camera, reported_pose
@@ -28,6 +29,7 @@ from synth.dataset.files import (
 from synth.dataset.glb import scene_glb
 from synth.dataset.layout import (
     first_object_id,
+    has_things,
     image_folders,
     layout_of,
     model_origins_m,
@@ -39,8 +41,10 @@ from synth.dataset.normals import encode_normals
 from synth.dataset.range_files import RANGE_FOLDER, hole_table, hole_value, write_range
 from synth.dataset.shape_truth import scene_gt_shape
 from synth.dataset.splits import write_splits
+from synth.dataset.surroundings import light_table, things_table
 from synth.dataset.workers import begin_scene
 from synth.light import Stage, spec_stage
+from synth.light.drawn_sun import drawn_sun
 from synth.progress import counted
 from synth.render import RenderedView, open_renderer, render_view
 from synth.render.interface import Renderer
@@ -86,6 +90,8 @@ def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -
         if not sensor.exact_range:
             exact = encode_depth(view.depth_m, scale_mm)
             write_png(folder / "depth_true" / f"{number:06d}.png", exact)
+        if has_things(spec):
+            write_png(folder / "not_rock" / f"{number:06d}.png", view.not_rock)
         if view.normals is not None:
             normals = encode_normals(view.normals)
             write_rgb_png(folder / "normals" / f"{number:06d}.png", normals)
@@ -105,6 +111,10 @@ def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -
         "gt_coco": bop.scene_gt_coco(scene, index, first_id, views, pictures=picture_folder(spec)),
         "gt_shape": scene_gt_shape(scene, first_id, views, models=models, wanted=truth_of(spec)),
     }
+    if has_things(spec):
+        tables["things"] = things_table(scene)
+    if spec.light is not UNSET:
+        tables["light"] = light_table(drawn_sun(spec, index))
     for name, table in tables.items():
         write_json(folder / f"scene_{name}.json", table)
     (folder / "scene.glb").write_bytes(scene_glb(stage))

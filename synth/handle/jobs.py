@@ -6,6 +6,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from synth.arrays import ColourImage, DepthImage, Image, LabelImage, NormalImage
 from synth.camera.calibration import reported_pose
 from synth.camera.camera import Pose
@@ -42,6 +45,7 @@ class ViewParts:
     depth_m: DepthImage
     exact_depth_m: DepthImage
     labels: LabelImage
+    not_rock: NDArray[np.uint8]
     pictures: Mapping[str, Image]
     pose: Pose  # as reported
     exact_pose: Pose
@@ -85,6 +89,7 @@ def render(spec: SceneSpec, index: int, number: int, model: bytes) -> ViewParts:
         depth_m=decode_depth(encode_depth(capture.depth_m, scale_mm), scale_mm),
         exact_depth_m=decode_depth(encode_depth(view.depth_m, scale_mm), scale_mm),
         labels=view.labels,
+        not_rock=view.not_rock,
         pictures={**grey, **capture.pictures},
         pose=reported_pose(spec, scene.poses[number], scene=index, view=number),
         exact_pose=scene.poses[number],

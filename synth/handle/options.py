@@ -42,6 +42,7 @@ class SceneOptions(TypedDict, total=False):
     calibration: Table
     light: Table
     tints: Table
+    things: Table
     image: Table
     dataset: Table
     truth: Table

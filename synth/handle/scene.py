@@ -96,6 +96,7 @@ class Scene:
             depth_m=parts.depth_m,
             exact_depth_m=parts.exact_depth_m,
             normals=parts.normals,
+            not_rock=parts.not_rock,
             labels=parts.labels,
             camera=self.camera,
             pose=parts.pose,

@@ -31,7 +31,7 @@ def truth_table(
     for number, rock in enumerate(rocks):
         row = {"id": number + 1, **dict(_columns(rock))}
         rows.append(row | (dict(_columns(visible[number])) if visible else {}))
-    table = pd.DataFrame(rows)
+    table = pd.DataFrame(rows) if rows else pd.DataFrame({"id": [], "obj_id": []}, dtype=int)
     for name in table.columns.difference(["id", "obj_id", "truncated", "outline_exact", *_TEXT]):
         table[name] = pd.to_numeric(table[name].astype(object), errors="raise").astype(float)
     return table

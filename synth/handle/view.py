@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from synth.arrays import ColourImage, DepthImage, Image, LabelImage, NormalImage
 from synth.camera.camera import Pose, RenderCamera
@@ -24,6 +25,7 @@ class View:
     exact_depth_m: DepthImage  # (rows, cols), without the sensor's errors
     normals: NormalImage | None  # (rows, cols, 3), where the specification asks for them
     labels: LabelImage  # (rows, cols), the value of a rock's `id` in `truth`, 0 elsewhere
+    not_rock: NDArray[np.uint8]  # (rows, cols), class of the thing seen, 0 elsewhere
     camera: RenderCamera  # as reported: with the errors of calibration, if the spec has them
     pose: Pose  # likewise
     exact_camera: RenderCamera

@@ -5,8 +5,10 @@ import numpy as np
 from synth.light.body import Body
 from synth.light.colour import Appearance, tint
 from synth.light.lit_scene import Stage
+from synth.light.mast import MastShadow
 from synth.light.painter import Painter
 from synth.light.rock_paint import rock_paint
+from synth.light.thing_body import thing_body
 from synth.scene.scene import SceneModel
 from synth.spec.surface import SurfaceSpec
 from synth.spec.view import SunSpec
@@ -47,12 +49,26 @@ def light_scene(
         )
         for mesh in scene.ground.meshes()
     )
+    things = tuple(thing_body(thing) for thing in scene.things)
     plane = scene.ground.plane_normal()
     up = scene.ground.normal()
+    stations_m = [pose.position_m() for pose in scene.poses]
+    mast = MastShadow(stations_m) if scene.mast_shadow and stations_m else None
     return Stage(
         rocks=rocks,
         ground=ground,
         plane_normal=up,
         rise_m=max(float((body.vertices_m @ up).max()) for body in ground),
-        painter=Painter(rocks, ground, plane, sun, surface, appearance=appearance),
+        painter=Painter(
+            rocks,
+            ground,
+            plane,
+            sun,
+            surface,
+            appearance=appearance,
+            things=things,
+            mast=mast,
+        ),
+        things=things,
+        thing_kinds=tuple(thing.model.kind for thing in scene.things),
     )

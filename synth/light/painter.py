@@ -14,6 +14,7 @@ from synth.arrays import Floats, Singles
 from synth.camera.camera import Pose, RenderCamera
 from synth.light.body import Body
 from synth.light.colour import Appearance
+from synth.light.mast import MastShadow
 from synth.light.photometry import EXPOSURE, SKY, light, sun_strength, towards_sun
 from synth.light.rays import Surfaces, directions
 from synth.light.reflectance import Reflectance
@@ -43,15 +44,20 @@ class Painter:
         surface: SurfaceSpec,
         *,
         appearance: Appearance | None = None,
+        things: Sequence[Body] = (),
+        mast: MastShadow | None = None,
     ) -> None:
         """Take the bodies, their light and its colours; without colours it paints grey."""
-        self.surfaces = Surfaces([*rocks, *ground])
-        self._bodies = [*rocks, *ground]
+        self.surfaces = Surfaces([*rocks, *ground, *things])
         self._rocks = len(rocks)
+        self._plain = len(ground) == 1
+        self._mast = mast
         self._sun, self._surface = sun, surface
         self._plane = None if plane_normal is None else plane_normal.astype(np.float32)
         self._towards_sun = towards_sun(sun).astype(np.float32)
-        self._reflectance = Reflectance(rocks, ground, surface, appearance)
+        self._reflectance = Reflectance(
+            rocks, ground, surface, things=things, appearance=appearance
+        )
         self._wetness = 0.0 if appearance is None else appearance.wetness
         self._sun_colour, self._sky_colour = (
             np.ones((2, 1), dtype=np.float32)
@@ -60,7 +66,7 @@ class Painter:
         )
         level = plane_normal is not None
         self._shadow_map = ShadowMap(
-            rocks if level else [], ground[1:] if level else [], towards_sun(sun)
+            [*rocks, *things] if level else [], ground[1:] if level else [], towards_sun(sun)
         )
 
     def paint(
@@ -128,7 +134,7 @@ class Painter:
                 width_m=width_m(camera, depth[here]),
                 stretch=stretch(rays[here] @ self._plane),
             )
-            bright[here], value[here] = self._shade(samples)
+            bright[here], value[here] = self._shade(samples, eye_m)
         rest = np.flatnonzero(there & ~flat)
         bright[rest], value[rest] = self._seen(camera, eye_m, rays[rest], 1)
         return bright.reshape(depth_m.shape), value.reshape(*depth_m.shape, self.channels)
@@ -140,7 +146,7 @@ class Painter:
     def _on_plane(self, points_m: Singles, depth: Singles) -> NDArray[np.bool_]:
         if self._plane is None:
             return np.zeros(len(points_m), dtype=bool)
-        if len(self._bodies) == self._rocks + 1:
+        if self._plain:
             return np.ones(len(points_m), dtype=bool)
         return np.asarray(np.abs(points_m @ self._plane) < _ON_PLANE * depth)
 
@@ -179,10 +185,10 @@ class Painter:
             width_m=width_m(camera, hits.length[here]) / np.float32(factor),
             stretch=stretch(facing),
         )
-        bright[here], value[here] = self._shade(samples)
+        bright[here], value[here] = self._shade(samples, eye_m)
         return bright, value
 
-    def _shade(self, samples: Samples) -> tuple[Singles, Singles]:
+    def _shade(self, samples: Samples, eye_m: Singles) -> tuple[Singles, Singles]:
         """Brightness of white at samples, (n,), and the light that they give back, (n, k)."""
         normals = samples.normals
         incidence = np.asarray(normals @ self._towards_sun)
@@ -191,6 +197,10 @@ class Painter:
             starts_m = samples.points_m[tried] + np.float32(_OFF_SURFACE_M) * normals[tried]
             shaded = tried[self.surfaces.blocked(starts_m, self._towards_sun)]
             incidence[shaded] = 0.0
+            if self._mast is not None:
+                lit = np.flatnonzero(incidence > 0.0)
+                blocked = self._mast.blocked(samples.points_m[lit], eye_m, self._towards_sun)
+                incidence[lit[blocked]] = 0.0
         facing = np.einsum("ij,ij->i", samples.directions, normals)
         emission = -facing / np.linalg.norm(samples.directions, axis=1)
         sky, direct = light(normals[:, 2], incidence, emission, self._sun, self._surface)

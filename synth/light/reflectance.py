@@ -24,9 +24,12 @@ class Reflectance:
         rocks: Sequence[Body],
         ground: Sequence[Body],
         surface: SurfaceSpec,
+        *,
+        things: Sequence[Body] = (),
         appearance: Appearance | None = None,
     ) -> None:
-        bodies = [*rocks, *ground]
+        bodies = [*rocks, *ground, *things]
+        self._textured = len(rocks) + len(ground)
         self._rocks, self._surface = len(rocks), surface
         self._painted = [number for number, body in enumerate(bodies) if body.paint is not None]
         self._bodies = bodies
@@ -54,6 +57,7 @@ class Reflectance:
             found[rocky] += cover[:, None] * (self._dust - found[rocky])
         if surface.contrast > 0.0:
             texture = self._texture(samples)[:, None]
+            texture[samples.body >= self._textured] = 0.0
             found = found * np.maximum(1.0 + np.float32(surface.contrast) * texture, 0.1)
         return found if self._wetness == 0.0 else wetted(np.minimum(found, 1.0), self._wetness)
 

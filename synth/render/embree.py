@@ -30,6 +30,9 @@ class EmbreeRenderer:
             surfaces = stage.painter.surfaces
             names = np.zeros(len(stage.rocks) + len(stage.ground), dtype=np.uint16)
             names[: len(stage.rocks)] = np.arange(1, len(stage.rocks) + 1)
+            first = len(stage.rocks) + 1
+            things = np.arange(first, first + len(stage.things), dtype=np.uint16)
+            names = np.concatenate([names, things])
         else:
             surfaces = Surfaces([stage.rocks[index] for index in rocks])
             names = np.array([index + 1 for index in rocks], dtype=np.uint16)

@@ -36,6 +36,7 @@ class GLRenderer:
         self._scene = pyrender.Scene()
         self._rocks = [self._scene.add(_mesh(rock)) for rock in stage.rocks]
         self._ground = [self._scene.add(_mesh(body)) for body in stage.ground]
+        self._things = [self._scene.add(_mesh(body)) for body in stage.things]
 
     def measure(
         self, pose: Pose, limits_m: tuple[float, float], rocks: Sequence[int] | None
@@ -45,6 +46,8 @@ class GLRenderer:
         colours = {self._rocks[index]: _colour(index + 1) for index in shown}
         if rocks is None:
             colours.update({node: _colour(0) for node in self._ground})
+            first = len(self._rocks) + 1
+            colours.update({node: _colour(i) for i, node in enumerate(self._things, first)})
         colour, depth_m = self._render(pose, limits_m, colours)
         labels = colour[..., 0].astype(np.uint16) + 256 * colour[..., 1].astype(np.uint16)
         return labels, np.where(depth_m > 0.0, depth_m.astype(np.float64), np.nan)

@@ -17,6 +17,7 @@ class Renderer(Protocol):
     ) -> tuple[NDArray[np.uint16], NDArray[np.float64]]:
         """Labels and z-depth, each (rows, cols), sampled at the pixels' centres.
 
-        Labels are 1 + the rock's index, 0 elsewhere; depth is in metres, NaN where nothing is.
+        Labels are 1 + the index among rocks and, after them, things, 0 elsewhere; depth is in
+        metres, NaN where nothing is.
         With `rocks` given, only those rocks exist, and no ground. `limits_m` holds all depths.
         """

@@ -12,6 +12,7 @@ from synth.light.colour import luminance
 from synth.render.interface import Renderer
 from synth.render.normals import normal_map
 from synth.render.silhouettes import Cutout, Silhouettes
+from synth.things.record import CLASSES
 
 _NEAREST_M = 0.1  # what is nearer, or behind the camera, is not seen
 _SLACK = 0.05  # depth limits lie this far outside the scene's own, as a share
@@ -36,6 +37,7 @@ class RenderedView(Sight):
 
     image: NDArray[np.uint8]  # (rows, cols)
     light: NDArray[np.float32]  # (rows, cols), before it is rounded and clipped, 1 for white
+    not_rock: NDArray[np.uint8]  # (rows, cols), class of the thing seen, 0 elsewhere
     colour: NDArray[np.float32] | None  # (rows, cols, 3), red, green and blue likewise
     normals: NDArray[np.float32] | None  # (rows, cols, 3), in the camera's frame, NaN likewise
     depth_m: Floats  # (rows, cols), NaN where nothing is
@@ -59,17 +61,20 @@ def render_view(
     Normals are made where they are asked for, colour where the stage has it.
     """
     limits_m = depth_limits_m(stage, camera, pose)
-    labels, depth_m = renderer.measure(pose, limits_m, None)
-    painted = stage.painter.paint(camera, pose, labels, depth_m, supersample=supersample)
+    seen, depth_m = renderer.measure(pose, limits_m, None)
+    painted = stage.painter.paint(camera, pose, seen, depth_m, supersample=supersample)
     light = luminance(painted)
+    labels = np.where(seen > len(stage.rocks), 0, seen).astype(np.uint16)
+    classes = [0] * (len(stage.rocks) + 1) + [CLASSES[kind] for kind in stage.thing_kinds]
     boxes_px = tuple(_box_px(rock.vertices_m, camera, pose) for rock in stage.rocks)
     silhouettes = Silhouettes(labels, boxes_px)
-    for group in _hidden_groups(boxes_px, camera):
+    for group in _hidden_groups(boxes_px, camera, crowded=bool(stage.things)):
         alone, _ = renderer.measure(pose, limits_m, group)
         silhouettes.replace(group, alone)
     return RenderedView(
         image=np.rint(255.0 * np.clip(light, 0.0, 1.0)).astype(np.uint8),
         light=light,
+        not_rock=np.array(classes, dtype=np.uint8)[seen],
         colour=painted if stage.painter.channels > 1 else None,
         normals=normal_map(stage, camera, pose) if normals else None,
         depth_m=depth_m,
@@ -95,7 +100,8 @@ def depth_limits_m(stage: Stage, camera: RenderCamera, pose: Pose) -> tuple[floa
     pebbles rise above it; where the border shows sky the ground's far edge counts. The nearer the
     limits, the finer the steps of an OpenGL depth buffer.
     """
-    rocks_m = [pose.camera_points_m(rock.vertices_m)[:, 2] for rock in stage.rocks]
+    bodies = [*stage.rocks, *stage.things]
+    rocks_m = [pose.camera_points_m(body.vertices_m)[:, 2] for body in bodies]
     surface_m = stage.ground[0].vertices_m
     edge_m = float(np.abs(surface_m).max())
     rays = np.concatenate(border_rays(camera))
@@ -118,8 +124,10 @@ def _box_px(vertices_m: Floats, camera: RenderCamera, pose: Pose) -> Floats:
     return np.concatenate([pixels.min(axis=0), pixels.max(axis=0)])
 
 
-def _hidden_groups(boxes_px: tuple[Floats, ...], camera: RenderCamera) -> list[list[int]]:
-    """Rocks whose boxes overlap another's, in groups without overlap inside.
+def _hidden_groups(
+    boxes_px: tuple[Floats, ...], camera: RenderCamera, *, crowded: bool
+) -> list[list[int]]:
+    """Rocks whose boxes overlap another's, in groups without overlap inside; all if crowded.
 
     A rock whose box is free of all others is seen whole: its label is its silhouette already; one
     whose box is outside the frame is not seen at all.
@@ -132,7 +140,7 @@ def _hidden_groups(boxes_px: tuple[Floats, ...], camera: RenderCamera) -> list[l
     overlap = (boxes[:, None, :2] <= boxes[None, :, 2:] + 1.0).all(axis=2)
     overlap &= overlap.T & shown & shown[:, None] & ~np.eye(len(boxes), dtype=bool)
     groups: list[list[int]] = []
-    for index in np.flatnonzero(overlap.any(axis=1)):
+    for index in np.flatnonzero(shown if crowded else overlap.any(axis=1)):
         for group in groups:
             if not overlap[index, group].any():
                 group.append(int(index))

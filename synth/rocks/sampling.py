@@ -19,6 +19,8 @@ from synth.spec.rocks import RocksSpec
 
 def quarry(spec: RocksSpec, *, rng: np.random.Generator) -> list[RockModel]:
     """Rocks of one scene, in an order that is independent of their shape."""
+    if spec.count == 0:
+        return []
     if spec.series in SERIES:
         rocks = SERIES[spec.series](spec, rng=rng)
         return [rocks[index] for index in rng.permutation(len(rocks))]

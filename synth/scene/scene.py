@@ -17,16 +17,14 @@ from synth.scene.ground import Terrain, make_ground
 from synth.scene.placement import PlacementArea, frustum, refuse_crowd, scatter, strew
 from synth.scene.population import draw_diameters_m
 from synth.scene.settling import buried_fraction, settle, shortest_turn
+from synth.scene.thing_placement import place_things, reach_in_view_m
 from synth.spec import SceneSpec, dataset_of, tints_of
+from synth.spec.things import ThingsSpec
+from synth.things.record import PlacedThing
 
-_LYING, _GROUND, _POPULATION, _SHARED, _FINISH, _WETNESS = (
-    1,
-    2,
-    3,
-    12,
-    31,
-    33,
-)  # children of the scene's seed
+# Children of the scene's seed.
+_LYING, _GROUND, _POPULATION, _SHARED = 1, 2, 3, 12
+_FINISH, _WETNESS, _THINGS = 31, 33, 34
 _ROOM_M = 0.4  # kept free of a population's rocks round the foot of each station
 _CROWD, _SAMPLE = 24, 12  # more rocks than the first are tried with the second before all are made
 _FOOT = 0.15  # vertices in this lowest share of a rock's height are its foot
@@ -64,6 +62,8 @@ class SceneModel:
     poses: tuple[Pose, ...]
     ground: Terrain
     wetness: float = 0.0  # 0 dry … 1 under a film of water
+    things: tuple[PlacedThing, ...] = ()  # no rocks
+    mast_shadow: bool = False  # the camera's own mast shades the ground
 
 
 def build_scene(spec: SceneSpec, index: int) -> SceneModel:
@@ -105,12 +105,21 @@ def build_scene(spec: SceneSpec, index: int) -> SceneModel:
             standing, places_m, burials, albedos, finishes, strict=True
         )
     )
+    wanted = ThingsSpec(kinds=()) if isinstance(spec.things, msgspec.UnsetType) else spec.things
     return SceneModel(
         rocks=placed,
         camera=camera,
         poses=tuple(poses),
         ground=ground,
         wetness=draw_wetness(tints_of(spec), rng=_child(spec, index, _WETNESS)),
+        things=place_things(
+            wanted,
+            ground,
+            [one.mesh for one in placed],
+            reach_m=reach_in_view_m(camera, camera_distance_m(spec.camera)),
+            rng=_child(spec, index, _THINGS),
+        ),
+        mast_shadow="mast-shadow" in wanted.kinds,
     )
 
 

@@ -24,6 +24,7 @@ COMMON_FOLDERS = (
     "gray",
     "rgb",
     "normals",
+    "not_rock",
     "depth",
     "depth_true",
     "range",

@@ -15,6 +15,7 @@ from synth.spec.population import PopulationSpec
 from synth.spec.rocks import RocksSpec
 from synth.spec.sensor import NoiseSpec, SensorSpec
 from synth.spec.surface import SurfaceSpec
+from synth.spec.things import ThingsSpec
 from synth.spec.tints import TintsSpec
 from synth.spec.toml import read_toml
 from synth.spec.truth import TruthSpec
@@ -45,6 +46,7 @@ class SceneSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     image: ImageSpec | UnsetType = UNSET
     light: LightSpec | UnsetType = UNSET
     tints: TintsSpec | UnsetType = UNSET
+    things: ThingsSpec | UnsetType = UNSET
     dataset: DatasetSpec | UnsetType = UNSET
     truth: TruthSpec | UnsetType = UNSET
 

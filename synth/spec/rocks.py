@@ -7,8 +7,8 @@ from msgspec import UNSET, Meta, Struct, UnsetType
 
 from synth.errors import SpecError
 from synth.spec.limits import (
+    MAX_COUNT,
     AxisRatioRange,
-    Count,
     Fraction,
     PositiveRange,
     RatioRange,
@@ -98,7 +98,7 @@ class RocksSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     family's own.
     """
 
-    count: Count = 6
+    count: Annotated[int, Meta(ge=0, le=MAX_COUNT)] = 6  # 0: a frame without any
     family: str = _DEFAULTS[0]
     series: Series = "auto"  # auto: graded where the family can be, else random
     diameter_m: PositiveRange = (0.28, 0.42)  # 2a, the longest side of the smallest box

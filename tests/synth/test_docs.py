@@ -16,6 +16,7 @@ from synth.spec.dataset import DatasetSpec
 from synth.spec.image import ImageSpec
 from synth.spec.light import LightSpec
 from synth.spec.rocks import FAMILIES, RocksSpec
+from synth.spec.things import ThingsSpec
 from synth.spec.tints import TintsSpec
 from synth.spec.truth import TruthSpec
 
@@ -29,6 +30,8 @@ SPEC = {
     "views": {"count": 2},
     "noise": {"kind": "sgm"},
     "image": {"colour": True, "normals": True},
+    "things": {"kinds": ["coin"]},
+    "light": {"ambient": [0.3, 0.4]},
 }
 
 
@@ -84,6 +87,7 @@ def defaults_of(table):
         ("`[ground]`", [DEFAULT.ground]),
         ("`[surface]` and `[sun]`", [DEFAULT.surface, DEFAULT.sun]),
         ("`[image]`, `[tints]` and `[light]`", [ImageSpec(), TintsSpec(), LightSpec()]),
+        ("`[things]`", [ThingsSpec()]),
         ("`[camera]` and `[views]`", [DEFAULT.camera, DEFAULT.views]),
     ],
 )

@@ -92,6 +92,19 @@ def test_missed_and_extra_rocks_are_told(view) -> None:
     assert "<table" in scored._repr_html_()
 
 
+@pytest.mark.parametrize("found", [0, 2])
+def test_a_frame_without_rocks_has_reasons_in_place_of_shares(view, found) -> None:
+    view.labels, view.truth = np.zeros_like(view.labels), view.truth.iloc[:0]
+    labels = np.where(_ellipses() <= found, _ellipses(), 0)
+    scored = validation.score(rockshape.measure(labels=labels), view)
+    assert np.isnan(scored.recall)
+    assert np.isnan(scored.mean_iou)
+    assert scored.reasons["recall"] == "no rock in sight"
+    assert np.isnan(scored.precision) == (found == 0)
+    assert ("precision" in scored.reasons) == (found == 0)
+    assert "recall NaN: no rock in sight" in repr(scored)
+
+
 @pytest.mark.parametrize("shape", [(100, 299), (99, 300)])
 def test_another_size_is_refused(view, shape) -> None:
     found = rockshape.measure(labels=_ellipses()[: shape[0], : shape[1]])

@@ -1,7 +1,7 @@
 """View score: one measurement matched with the truth of the view it was made on."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from html import escape
 from typing import Protocol
 
@@ -41,6 +41,7 @@ class ViewScore:
     precision: float  # share of the found rocks that are true ones
     mean_iou: float  # of the matched rocks' masks
     measures: pd.DataFrame  # one row a measure: its truth, Kendall's τ_b, bias and RMS error
+    reasons: Mapping[str, str] = field(default_factory=dict)  # why a share is NaN, by its name
 
     def __repr__(self) -> str:
         """Counts of true, found and matched rocks."""
@@ -48,8 +49,11 @@ class ViewScore:
         matched, missed, extra = (int(status.get(s, 0)) for s in ("matched", "missed", "extra"))
         return (
             f"ViewScore({matched} of {matched + missed} rocks found, {extra} extra, "
-            f"mean IoU {self.mean_iou:.3f})"
+            f"mean IoU {self.mean_iou:.3f}{self._told()})"
         )
+
+    def _told(self) -> str:
+        return "".join(f"; {name} NaN: {reason}" for name, reason in self.reasons.items())
 
     def _repr_html_(self) -> str:
         """Measures' scores and the rocks, for a notebook."""
@@ -93,7 +97,18 @@ def score_view(found: Measurement, view: TrueView, *, min_iou: float) -> ViewSco
             list(_scored(rocks, found.measures)),
             columns=["measure", "truth", "rocks", "tau", "bias", "rms_error"],
         ),
+        reasons=_reasons(true=len(shown), found=len(found), matched=count),
     )
+
+
+def _reasons(*, true: int, found: int, matched: int) -> dict[str, str]:
+    """Reasons of the shares that have no value."""
+    empty = {
+        "recall": (true, "no rock in sight"),
+        "precision": (found, "no rock was found"),
+        "mean_iou": (matched, "no rock is matched"),
+    }
+    return {name: reason for name, (number, reason) in empty.items() if number == 0}
 
 
 def _rocks(truth: pd.DataFrame, partner: pd.DataFrame, table: pd.DataFrame) -> pd.DataFrame:

@@ -1,0 +1,1 @@
+"""Things that are no rocks: rulers, cables, parts of a rover."""

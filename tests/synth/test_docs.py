@@ -30,6 +30,8 @@ SPEC = {
     "views": {"count": 2},
     "noise": {"kind": "sgm"},
     "image": {"colour": True, "normals": True},
+    "calibration": {"focal": 0.01},
+    "dataset": {"hole_value": "-9999"},
     "things": {"kinds": ["coin"]},
     "light": {"ambient": [0.3, 0.4]},
 }

@@ -18,6 +18,7 @@ PICTURES = {
     "segmentation_cases": "best and worst views of the suite `segmentation` (minutes)",
     "findings": "shares of each cause, suite `views` (minutes)",
     "range_noise": "estimated over true range noise by ground, from benchmarks/results.json",
+    "realism": "made pictures beside photographs of their kind",
     "ranges": "range of one scene by each sensor, and its error",
     "stereo_model": "depth error by range and its autocorrelation, model and matcher",
 }

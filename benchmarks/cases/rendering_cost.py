@@ -113,7 +113,7 @@ def field(*, rocks: int = 500, preset: str = "mer-navcam") -> list[Table]:
 
 
 def _field(rocks: int, preset: str) -> tuple[float, ...]:
-    spec, backend = _field_spec(rocks, preset), choose_backend("auto")
+    spec, backend = field_spec(rocks, preset), choose_backend("auto")
     made: dict[str, Any] = {}
 
     def keep(name: str, value: Any) -> None:
@@ -140,7 +140,7 @@ def _field(rocks: int, preset: str) -> tuple[float, ...]:
     )
 
 
-def _field_spec(rocks: int, preset: str) -> SceneSpec:
+def field_spec(rocks: int, preset: str, *, views: int = 2) -> SceneSpec:
     """Return the spec of a field with this many rocks on average, k = 0.19."""
     population = {"kind": "golombek-rapp", "k": 0.19, "d_min_m": 0.1, "d_max_m": 1.0}
     one_m = expected_count(PopulationSpec(**population, radius_m=1.0))
@@ -148,7 +148,7 @@ def _field_spec(rocks: int, preset: str) -> SceneSpec:
         "population": {**population, "radius_m": float(np.sqrt(rocks / one_m))},
         "rocks": {"family": "rounded-polyhedron", "series": "random"},
         "camera": {"preset": preset, "distance_m": 9.0, "elevation_deg": 25.0},
-        "views": {"count": 2},
+        "views": {"count": views},
     }
     return convert_spec(table, where="field")
 

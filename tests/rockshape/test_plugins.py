@@ -156,7 +156,7 @@ def test_the_distribution_of_the_docs_names_records_of_their_groups() -> None:
         "rockshape.finders": ("dark_finder", Finder),
         "rockshape.formats": ("ascii_range", RangeFormat),
         "rockshape.kinds": ("coins_kind", Kind),
-        "synth.sensors": ("lidar", Sensor),
+        "synth.sensors": ("scanner", Sensor),
     }
     assert set(groups) == set(records)
     for group, (module, record) in records.items():

@@ -179,7 +179,8 @@ def read_lens(
     lens = Lens(camera) if isinstance(camera, Camera) else camera
     if info is not None and lens.shape != info.shape:
         raise InputError(
-            f"{path}: camera: expected {info.shape} as the image has, found {lens.shape}"
+            f"{path}: camera: expected {info.shape} as the image has, found {lens.shape}: "
+            f"another image's, or of one before it was cropped or scaled"
         )
     return lens
 

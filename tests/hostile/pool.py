@@ -42,9 +42,11 @@ class _Worker:
                 return Verdict(*self._pipe.recv())
             outcome = "hang"
         except EOFError:
+            self._process.join()  # its exit code is to be known: that of a signal is negative
             outcome = "died"
+        code = self._process.exitcode
         self.end()
-        return Verdict(outcome, limit_s, 0, "")
+        return Verdict(outcome, limit_s, 0, f"exit code {code}")
 
     @property
     def ended(self) -> bool:

@@ -11,7 +11,7 @@ from synth.rocks.family import Family, own_options
 from synth.rocks.polyhedron import spread_normals
 from synth.rocks.record import RockModel
 from synth.rocks.sphere import unit_sphere
-from synth.rocks.star import Made, Surface, Waves, convex_core, draw_waves, fitted, star_rock
+from synth.rocks.star import Made, StarSurface, Waves, convex_core, draw_waves, fitted, star_rock
 from synth.spec.limits import check_ranges
 from synth.spec.rocks import RocksSpec, Softness, Subdivisions
 
@@ -41,12 +41,12 @@ class BrokenOptions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
 
 @dataclass(frozen=True, eq=False)
 class Broken:
-    """Surface cut by rough planes, along a sharp edge.
+    """StarSurface cut by rough planes, along a sharp edge.
 
     A plane at the distance h is met along w at h (1 + height × waves(w))/(n·w).
     """
 
-    surface: Surface
+    surface: StarSurface
     normals: Floats  # (k, 3)
     distances: Floats  # (k,)
     waves: tuple[Waves, ...]  # one for each plane

@@ -9,7 +9,7 @@ from msgspec import Meta, Struct
 from synth.arrays import Floats, Ints
 from synth.rocks.family import Family, own_options
 from synth.rocks.record import RockModel
-from synth.rocks.star import Made, Surface, convex_core, fitted, star_rock
+from synth.rocks.star import Made, StarSurface, convex_core, fitted, star_rock
 from synth.spec.limits import check_ranges
 from synth.spec.rocks import Cuts, RocksSpec, Softness, Subdivisions
 
@@ -40,9 +40,9 @@ class DentedOptions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
 
 @dataclass(frozen=True, eq=False)
 class Dented:
-    """Surface whose radius is Π (1 − δ_k exp(−θ_k²/2σ_k²)) times another's, θ_k from dent k."""
+    """StarSurface whose radius is Π (1 − δ_k exp(−θ_k²/2σ_k²)) times another's, θ_k from dent k."""
 
-    surface: Surface
+    surface: StarSurface
     middles: Floats  # (k, 3), unit vectors
     depths: Floats  # (k,), δ
     widths_rad: Floats  # (k,), σ

@@ -9,7 +9,7 @@ from msgspec import Meta, Struct
 from synth.arrays import Floats, Ints
 from synth.rocks.family import Family, own_options
 from synth.rocks.record import RockModel
-from synth.rocks.star import Made, Surface, convex_core, fitted, star_rock
+from synth.rocks.star import Made, StarSurface, convex_core, fitted, star_rock
 from synth.spec.limits import Fraction, check_ranges
 from synth.spec.rocks import RocksSpec, Softness, Subdivisions
 
@@ -37,12 +37,12 @@ class VesicularOptions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=
 
 @dataclass(frozen=True, eq=False)
 class Pitted:
-    """Surface less balls; what a ray meets of the balls first is the pits' floor.
+    """StarSurface less balls; what a ray meets of the balls first is the pits' floor.
 
     A ball of radius ρ about c is entered along w at c·w − √((c·w)² + ρ² − c²).
     """
 
-    surface: Surface
+    surface: StarSurface
     middles: Floats  # (k, 3)
     radii: Floats  # (k,)
 

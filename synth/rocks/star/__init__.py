@@ -2,13 +2,13 @@
 
 from synth.rocks.star.cuts import Cuts, convex_core
 from synth.rocks.star.rock import Made, fitted, star_rock
-from synth.rocks.star.surface import Surface, star_mesh
+from synth.rocks.star.surface import StarSurface, star_mesh
 from synth.rocks.star.waves import Waves, draw_waves
 
 __all__ = [
     "Cuts",
     "Made",
-    "Surface",
+    "StarSurface",
     "Waves",
     "convex_core",
     "draw_waves",

@@ -11,7 +11,7 @@ from synth.geometry.mesh import Mesh, area_m2, centroid_m
 from synth.rocks.record import RockModel
 from synth.rocks.relief import turned_to_box
 from synth.rocks.sphere import unit_sphere
-from synth.rocks.star.surface import Surface, star_mesh
+from synth.rocks.star.surface import StarSurface, star_mesh
 
 _FITTED_ON = 4  # subdivisions of the sphere on which extents are taken
 
@@ -20,7 +20,7 @@ _FITTED_ON = 4  # subdivisions of the sphere on which extents are taken
 class Made:
     """What a family makes: a surface, the parameters that it was made from, and its kind."""
 
-    surface: Surface
+    surface: StarSurface
     knobs: Mapping[str, float]
     smooth: bool  # has an area that its meshes converge to
     has_edges: bool  # sharp ones
@@ -28,9 +28,9 @@ class Made:
 
 @dataclass(frozen=True, eq=False)
 class _Stretched:
-    """Surface stretched along the axes."""
+    """StarSurface stretched along the axes."""
 
-    surface: Surface
+    surface: StarSurface
     factors: Floats  # (3,)
 
     def points(self, directions: Floats) -> tuple[Floats, Ints]:
@@ -38,8 +38,8 @@ class _Stretched:
         return points * self.factors, parts
 
 
-def fitted(surface: Surface, half_axes_m: Floats) -> Surface:
-    """Surface stretched along the axes until its extents are twice the half-axes (3,)."""
+def fitted(surface: StarSurface, half_axes_m: Floats) -> StarSurface:
+    """StarSurface stretched along the axes until its extents are twice the half-axes (3,)."""
     points, _ = surface.points(unit_sphere(_FITTED_ON)[0])
     return _Stretched(surface, 2.0 * half_axes_m / np.ptp(points, axis=0))
 
@@ -86,5 +86,5 @@ class _Place:
         return replace(turned, vertices_m=self.factor * turned.vertices_m)
 
 
-def _remeshed(surface: Surface, place: _Place, subdivisions: int) -> Mesh:
+def _remeshed(surface: StarSurface, place: _Place, subdivisions: int) -> Mesh:
     return place.moved(star_mesh(surface, subdivisions))

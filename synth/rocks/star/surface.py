@@ -13,8 +13,8 @@ _BISECTIONS = 14  # of an edge: 1e-4 of its length
 _REACH = 0.505  # share of an edge that a vertex may move along it: to its middle, if need be
 
 
-class Surface(Protocol):
-    """Surface round the origin, known along each direction."""
+class StarSurface(Protocol):
+    """StarSurface round the origin, known along each direction."""
 
     def points(self, directions: Floats) -> tuple[Floats, Ints]:
         """Points (n, 3) of the surface, one for each direction (n, 3), and their parts (n,).
@@ -23,7 +23,7 @@ class Surface(Protocol):
         """
 
 
-def star_mesh(surface: Surface, subdivisions: int) -> Mesh:
+def star_mesh(surface: StarSurface, subdivisions: int) -> Mesh:
     """Mesh of 20 × 4^subdivisions facets, its vertices on the surface, some on its creases."""
     directions, faces = unit_sphere(subdivisions)
     vertices, parts = surface.points(directions)
@@ -33,7 +33,7 @@ def star_mesh(surface: Surface, subdivisions: int) -> Mesh:
     return Mesh(vertices_m=vertices, faces=faces, normals=vertex_normals(vertices, faces))
 
 
-def _creased(surface: Surface, directions: Floats, faces: Ints, parts: Ints) -> Floats:
+def _creased(surface: StarSurface, directions: Floats, faces: Ints, parts: Ints) -> Floats:
     """Directions (n, 3), those next to a change of part moved onto it along an edge.
 
     A vertex goes to the nearest change on its edges, no farther than the edge's middle; in facets

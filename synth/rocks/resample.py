@@ -46,7 +46,7 @@ def _rounded_off(mesh: Mesh, *, facets: int) -> Mesh:
 
 
 def resampled(mesh: Mesh, half_axes_m: Floats, *, subdivisions: int) -> Mesh:
-    """StarSurface that the origin's rays meet last, on an even mesh.
+    """Surface that the origin's rays meet last, on an even mesh.
 
     The vertices lie on the mesh's facets, on rays through an even mesh of the ellipsoid with the
     half-axes. Where a ray meets the surface more than once, what lies within is left out.

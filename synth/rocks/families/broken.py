@@ -41,7 +41,7 @@ class BrokenOptions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
 
 @dataclass(frozen=True, eq=False)
 class Broken:
-    """StarSurface cut by rough planes, along a sharp edge.
+    """Surface cut by rough planes, along a sharp edge.
 
     A plane at the distance h is met along w at h (1 + height × waves(w))/(n·w).
     """

@@ -40,7 +40,7 @@ class DentedOptions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
 
 @dataclass(frozen=True, eq=False)
 class Dented:
-    """StarSurface whose radius is Π (1 − δ_k exp(−θ_k²/2σ_k²)) times another's, θ_k from dent k."""
+    """Surface whose radius is Π (1 − δ_k exp(−θ_k²/2σ_k²)) times another's, θ_k from dent k."""
 
     surface: StarSurface
     middles: Floats  # (k, 3), unit vectors

@@ -37,7 +37,7 @@ class VesicularOptions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=
 
 @dataclass(frozen=True, eq=False)
 class Pitted:
-    """StarSurface less balls; what a ray meets of the balls first is the pits' floor.
+    """Surface less balls; what a ray meets of the balls first is the pits' floor.
 
     A ball of radius ρ about c is entered along w at c·w − √((c·w)² + ρ² − c²).
     """

@@ -28,7 +28,7 @@ class Made:
 
 @dataclass(frozen=True, eq=False)
 class _Stretched:
-    """StarSurface stretched along the axes."""
+    """Surface stretched along the axes."""
 
     surface: StarSurface
     factors: Floats  # (3,)
@@ -39,7 +39,7 @@ class _Stretched:
 
 
 def fitted(surface: StarSurface, half_axes_m: Floats) -> StarSurface:
-    """StarSurface stretched along the axes until its extents are twice the half-axes (3,)."""
+    """Surface stretched along the axes until its extents are twice the half-axes (3,)."""
     points, _ = surface.points(unit_sphere(_FITTED_ON)[0])
     return _Stretched(surface, 2.0 * half_axes_m / np.ptp(points, axis=0))
 

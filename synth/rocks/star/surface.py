@@ -14,7 +14,7 @@ _REACH = 0.505  # share of an edge that a vertex may move along it: to its middl
 
 
 class StarSurface(Protocol):
-    """StarSurface round the origin, known along each direction."""
+    """Surface round the origin, known along each direction."""
 
     def points(self, directions: Floats) -> tuple[Floats, Ints]:
         """Points (n, 3) of the surface, one for each direction (n, 3), and their parts (n,).

@@ -24,12 +24,15 @@ from synth.spec.dataset import LayoutName
 from synth.spec.limits import MAX_COUNT
 from synth.spec.sensor import SENSORS
 from synth.spec.shapes import JITTER_RMS_PX, SERIES_NAMES
+from synth.spec.site import SITES, with_site
+from synth.spec.source import Table
+from synth.spec.toml import read_toml
 from synth.spec.view import PresetName
 from synth.spec.wording import expected_one_of
 
 HELP = "generate rocks of known shape: scenes, gravel beds or drawn shapes, with their ground truth"
 
-_SPEC_OPTIONS = ("spec", "seed", "scenes", "rocks", "views", "camera", "renderer", "noise")
+_SPEC_OPTIONS = ("spec", "site", "seed", "scenes", "rocks", "views", "camera", "renderer", "noise")
 _DATASET_OPTIONS = ("split", "layout", "yolo")
 _EXAMPLES = """examples:
   rockshape synth scene scenes --rocks 6 --views 4 --seed 1
@@ -57,6 +60,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     add_dataset_arguments(scene)
+    scene.add_argument("--site", metavar="NAME", help=f"{_listed(SITES)} (default {DEFAULT_SITE})")
     scene.add_argument("--scenes", metavar="N", type=int, help="number of scenes (default 1)")
     scene.add_argument("--rocks", metavar="N", type=int, help="rocks in a scene (default 6)")
     scene.add_argument("--views", metavar="N", type=int, help="views of a scene (default 4)")
@@ -193,7 +197,7 @@ def _numbers(option: str, text: str | None) -> list[float] | None:
 
 
 def _spec(args: argparse.Namespace) -> SceneSpec:
-    """Spec of the file, or the default one, with the options laid over it."""
+    """Spec of the file, or the default one, on a site and with the options laid over it."""
     _require("--camera", args.camera, get_args(PresetName))
     _require("--renderer", args.renderer, get_args(RendererName))
     _require("--layout", args.layout, get_args(LayoutName))
@@ -201,7 +205,15 @@ def _spec(args: argparse.Namespace) -> SceneSpec:
     for option, most in (("scenes", MAX_SCENES), ("views", MAX_COUNT)):
         check_number(args, option, most)
     check_number(args, "rocks", MAX_COUNT, least=0)
-    spec = SceneSpec() if args.spec is None else load_spec(args.spec)
+    _require("--site", args.site, SITES)
+    said: Table = {}
+    if args.spec is not None:
+        load_spec(args.spec)  # a complaint names the file
+        said = read_toml(args.spec)
+    if args.site is not None:
+        said = {**said, "site": args.site}
+    where = "options" if args.spec is None else str(args.spec)
+    spec = convert_spec(with_site(said, where=where), where=where)
     table = msgspec.to_builtins(spec)
     for part, key, value in (
         (table, "seed", args.seed),

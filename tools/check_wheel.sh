@@ -60,7 +60,7 @@ use() { # NAME: what a user does first, far from the checkout
         'import rockshape, pathlib; print(pathlib.Path(rockshape.__file__).parent.relative_to(pathlib.Path.cwd().parent))')"
     quiet "$bin/rockshape" measure "$IMAGE" --range "$RANGE" --out rocks.csv --overlay rocks.png
     same_rocks "$1" $(($(wc -l <rocks.csv) - 1))
-    quiet "$bin/rockshape" synth scene scenes --rocks 2 --views 1 --seed 1
+    quiet "$bin/rockshape" synth scene scenes --site plain --rocks 2 --views 1 --seed 1
     "$bin/rockshape" validate run --suite shapes-roundness --out suite --jobs 1 2>"$WORK/log" ||
         { cat "$WORK/log"; return 1; }
     quiet "$bin/python" -m pytest -p no:cacheprovider --rockshape-suite shapes-roundness --rockshape-jobs 1

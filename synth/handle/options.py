@@ -7,7 +7,9 @@ from typing import Any, TypedDict
 import msgspec
 
 from synth.spec import SceneSpec, convert_spec, load_spec
+from synth.spec.site import with_site
 from synth.spec.source import Table, check_names, merged, tables_of
+from synth.spec.toml import read_toml
 
 SpecSource = SceneSpec | Table | str | Path
 
@@ -25,6 +27,7 @@ _OF_ROCKS = ("family", "series")
 class SceneOptions(TypedDict, total=False):
     """Keywords of `make_scene`."""
 
+    site: str
     seed: int
     scenes: int
     renderer: str
@@ -56,8 +59,14 @@ def spec_of(source: SpecSource | None, options: Mapping[str, Any]) -> SceneSpec:
     """
     where = "make_scene"
     check_names(options, SceneOptions.__annotations__, where=where)
+    if isinstance(source, str | Path):
+        load_spec(Path(source))  # a complaint names the file
+        source = read_toml(Path(source))
     table = tables_of(source, SceneSpec, load_spec, where=where)
-    return convert_spec(merged(merged({}, table), _tables(options)), where=where)
+    said: Table = merged(merged({}, table), _tables(options))
+    if not isinstance(source, SceneSpec) or "site" in options:
+        said = with_site(said, where=where)
+    return convert_spec(said, where=where)
 
 
 def with_noise(spec: SceneSpec, noise: str | Table | None) -> SceneSpec:

@@ -11,6 +11,10 @@ Paint = Callable[[Singles, Singles], Singles]
 """Factor (n, 3) on a body's reflectance in R, G, B at points (n, 3) of its own frame, averaged
 over footprints (n,), both in metres."""
 
+Relief = Callable[[Singles, Singles, Singles], Singles]
+"""Unit normals (n, 3) with relief finer than a body's triangles, at points (n, 3) where the
+triangles' normals are (n, 3), averaged over footprints (n,)."""
+
 
 @dataclass(frozen=True, eq=False)
 class Body:
@@ -27,3 +31,4 @@ class Body:
     position_m: Floats  # (3,), and moves with it
     tint: Floats = field(default_factory=lambda: np.ones(3))  # (3,), of luminance 1
     paint: Paint | None = None  # None: even
+    relief: Relief | None = None  # None: none but the triangles'

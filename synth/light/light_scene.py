@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from synth.arrays import Floats
+from synth.geometry.mesh import Mesh
 from synth.light.body import Body
 from synth.light.colour import Appearance, tint
 from synth.light.lit_scene import Stage
@@ -12,6 +14,7 @@ from synth.light.thing_body import thing_body
 from synth.scene.scene import SceneModel
 from synth.spec.surface import SurfaceSpec
 from synth.spec.view import SunSpec
+from synth.terrain.skin import Skin
 
 
 def light_scene(
@@ -37,28 +40,22 @@ def light_scene(
         )
         for placed in scene.rocks
     )
+    meshes = scene.ground.meshes()
     ground = tuple(
-        Body(
-            vertices_m=mesh.vertices_m,
-            faces=mesh.faces,
-            normals=mesh.normals,
-            albedo=surface.ground_albedo,
-            model_to_world=np.eye(3),
-            position_m=np.zeros(3),
-            tint=white if appearance is None else appearance.ground,
-        )
-        for mesh in scene.ground.meshes()
+        _ground_body(mesh, skin, surface, white if appearance is None else appearance.ground)
+        for mesh, skin in zip(meshes, scene.ground.skins(), strict=True)
     )
     things = tuple(thing_body(thing) for thing in scene.things)
     plane = scene.ground.plane_normal()
-    up = scene.ground.normal()
     stations_m = [pose.position_m() for pose in scene.poses]
     mast = MastShadow(stations_m) if scene.mast_shadow and stations_m else None
     return Stage(
         rocks=rocks,
         ground=ground,
-        plane_normal=up,
-        rise_m=max(float((body.vertices_m @ up).max()) for body in ground),
+        plane_normal=scene.ground.normal(),
+        rise_m=scene.ground.rise_m(meshes),
+        drop_m=scene.ground.drop_m,
+        hiding=scene.ground.hiding,
         painter=Painter(
             rocks,
             ground,
@@ -68,7 +65,23 @@ def light_scene(
             appearance=appearance,
             things=things,
             mast=mast,
+            haze_m=scene.ground.haze_m,
         ),
         things=things,
         thing_kinds=tuple(thing.model.kind for thing in scene.things),
+    )
+
+
+def _ground_body(mesh: Mesh, skin: Skin | None, surface: SurfaceSpec, colour: Floats) -> Body:
+    """Body of the ground: of its even albedo and a colour, or of all that its skin says."""
+    return Body(
+        vertices_m=mesh.vertices_m,
+        faces=mesh.faces,
+        normals=mesh.normals,
+        albedo=surface.ground_albedo if skin is None else 1.0,
+        model_to_world=np.eye(3),
+        position_m=np.zeros(3),
+        tint=colour if skin is None else np.ones(3),
+        paint=None if skin is None else skin.paint,
+        relief=None if skin is None else skin.relief,
     )

@@ -20,5 +20,7 @@ class Stage:
     plane_normal: Floats  # (3,), of the plane through the origin that the ground is or follows
     rise_m: float  # how far the ground rises above that plane
     painter: Painter
+    drop_m: float = 0.0  # how far it falls below that plane
+    hiding: bool = False  # whether the ground may hide parts of any rock
     things: tuple[Body, ...] = ()
     thing_kinds: tuple[ThingName, ...] = ()  # of each

@@ -14,6 +14,7 @@ from synth.arrays import Floats, Singles
 from synth.camera.camera import Pose, RenderCamera
 from synth.light.body import Body
 from synth.light.colour import Appearance
+from synth.light.fine_relief import FineRelief
 from synth.light.mast import MastShadow
 from synth.light.photometry import EXPOSURE, SKY, light, sun_strength, towards_sun
 from synth.light.rays import Surfaces, directions
@@ -46,6 +47,7 @@ class Painter:
         appearance: Appearance | None = None,
         things: Sequence[Body] = (),
         mast: MastShadow | None = None,
+        haze_m: float | None = None,
     ) -> None:
         """Take the bodies, their light and its colours; without colours it paints grey."""
         self.surfaces = Surfaces([*rocks, *ground, *things])
@@ -53,6 +55,8 @@ class Painter:
         self._plain = len(ground) == 1
         self._mast = mast
         self._sun, self._surface = sun, surface
+        self._haze_m = haze_m
+        self._relief = FineRelief(self._bodies)
         self._plane = None if plane_normal is None else plane_normal.astype(np.float32)
         self._towards_sun = towards_sun(sun).astype(np.float32)
         self._reflectance = Reflectance(
@@ -186,34 +190,60 @@ class Painter:
             stretch=stretch(facing),
         )
         bright[here], value[here] = self._shade(samples, eye_m)
+        if self._haze_m is not None:
+            distance_m = hits.length[here] * np.linalg.norm(rays[here], axis=1)
+            clear = np.exp(-distance_m / np.float32(self._haze_m))[:, None]
+            air = np.float32(SKY) * self._sky_colour
+            value[here] = air + clear * (value[here] - air)
         return bright, value
 
     def _shade(self, samples: Samples, eye_m: Singles) -> tuple[Singles, Singles]:
-        """Brightness of white at samples, (n,), and the light that they give back, (n, k)."""
-        normals = samples.normals
-        incidence = np.asarray(normals @ self._towards_sun)
-        if self._sun.shadows:
-            tried = np.flatnonzero((incidence > 0.0) & self._shadow_map.possible(samples.points_m))
-            starts_m = samples.points_m[tried] + np.float32(_OFF_SURFACE_M) * normals[tried]
-            shaded = tried[self.surfaces.blocked(starts_m, self._towards_sun)]
-            incidence[shaded] = 0.0
-            if self._mast is not None:
-                lit = np.flatnonzero(incidence > 0.0)
-                blocked = self._mast.blocked(samples.points_m[lit], eye_m, self._towards_sun)
-                incidence[lit[blocked]] = 0.0
-        facing = np.einsum("ij,ij->i", samples.directions, normals)
-        emission = -facing / np.linalg.norm(samples.directions, axis=1)
-        sky, direct = light(normals[:, 2], incidence, emission, self._sun, self._surface)
+        """Brightness of white at samples, (n,), and the light that they give back, (n, k).
+
+        Relief finer than the triangles is no edge: its body counts as level there, lit or not.
+        """
+        shaded, shown = self._shaded(samples, eye_m), samples
+        sky, direct = self._light(samples, shaded)
+        bright = sky + direct
+        if self._relief:
+            away = np.flatnonzero(samples.normals @ self._towards_sun <= 0.0)
+            level = self._light(self._relief.levelled(samples), np.concatenate([shaded, away]))
+            bright, shown = level[0] + level[1], self._relief.refined(samples)
+            sky, direct = self._light(shown, shaded)
         arriving = sky[:, None] * self._sky_colour + direct[:, None] * self._sun_colour
         given_back = np.float32(EXPOSURE) * arriving * self._reflectance.at(samples)
         if self._wetness > 0.0:
-            given_back += self._highlights(samples, incidence)[:, None] * self._sun_colour
-        return sky + direct, given_back
+            given_back += self._highlights(shown, direct)[:, None] * self._sun_colour
+        return bright, given_back
 
-    def _highlights(self, samples: Samples, incidence: Singles) -> Singles:
-        """Sun's highlights in wet surfaces, (n,); none in shadow."""
-        found = np.zeros(len(incidence), dtype=np.float32)
+    def _shaded(self, samples: Samples, eye_m: Singles) -> Indices:
+        """Samples that a body keeps from the sun, of those turned towards it."""
+        if not self._sun.shadows:
+            return np.empty(0, dtype=np.int64)
+        normals = samples.normals
+        incidence = np.asarray(normals @ self._towards_sun)
+        tried = np.flatnonzero((incidence > 0.0) & self._shadow_map.possible(samples.points_m))
+        starts_m = samples.points_m[tried] + np.float32(_OFF_SURFACE_M) * normals[tried]
+        shaded = tried[self.surfaces.blocked(starts_m, self._towards_sun)]
+        if self._mast is None:
+            return shaded
+        incidence[shaded] = 0.0
         lit = np.flatnonzero(incidence > 0.0)
+        blocked = self._mast.blocked(samples.points_m[lit], eye_m, self._towards_sun)
+        return np.concatenate([shaded, lit[blocked]])
+
+    def _light(self, samples: Samples, shaded: Indices) -> tuple[Singles, Singles]:
+        """Light of sky and sun on samples, (n,) each, some of them in shadow."""
+        incidence = np.asarray(samples.normals @ self._towards_sun)
+        incidence[shaded] = 0.0
+        facing = np.einsum("ij,ij->i", samples.directions, samples.normals)
+        emission = -facing / np.linalg.norm(samples.directions, axis=1)
+        return light(samples.normals[:, 2], incidence, emission, self._sun, self._surface)
+
+    def _highlights(self, samples: Samples, direct: Singles) -> Singles:
+        """Sun's highlights in wet surfaces, (n,); none where no sunlight falls."""
+        found = np.zeros(len(direct), dtype=np.float32)
+        lit = np.flatnonzero(direct > 0.0)
         sights = -samples.directions[lit]
         sights = sights / np.linalg.norm(sights, axis=1, keepdims=True)
         found[lit] = highlight(samples.normals[lit], sights, self._towards_sun)

@@ -68,7 +68,8 @@ def render_view(
     classes = [0] * (len(stage.rocks) + 1) + [CLASSES[kind] for kind in stage.thing_kinds]
     boxes_px = tuple(_box_px(rock.vertices_m, camera, pose) for rock in stage.rocks)
     silhouettes = Silhouettes(labels, boxes_px)
-    for group in _hidden_groups(boxes_px, camera, crowded=bool(stage.things)):
+    crowded = bool(stage.things) or stage.hiding
+    for group in _hidden_groups(boxes_px, camera, crowded=crowded):
         alone, _ = renderer.measure(pose, limits_m, group)
         silhouettes.replace(group, alone)
     return RenderedView(
@@ -96,9 +97,9 @@ def render_light(
 def depth_limits_m(stage: Stage, camera: RenderCamera, pose: Pose) -> tuple[float, float]:
     """Least and the greatest depth in view, with a little to spare.
 
-    The ground's are its plane's along the frame's border, and as much nearer as ripples and
-    pebbles rise above it; where the border shows sky the ground's far edge counts. The nearer the
-    limits, the finer the steps of an OpenGL depth buffer.
+    The ground's are its plane's along the frame's border, as much nearer as ripples and pebbles
+    rise above it and as much farther as hollows lie below; where the border shows sky the ground's
+    far edge counts. The nearer the limits, the finer the steps of an OpenGL depth buffer.
     """
     bodies = [*stage.rocks, *stage.things]
     rocks_m = [pose.camera_points_m(body.vertices_m)[:, 2] for body in bodies]
@@ -108,8 +109,9 @@ def depth_limits_m(stage: Stage, camera: RenderCamera, pose: Pose) -> tuple[floa
     border = np.column_stack([rays, np.ones(len(rays))]) @ pose.world_to_camera
     up = stage.plane_normal
     falls, height_m = -(border @ up), float(pose.position_m() @ up)
-    ground_m = np.where(falls * edge_m > height_m, height_m / np.maximum(falls, 1e-9), edge_m)
-    nearest_m = (height_m - stage.rise_m) / height_m * ground_m.min()
+    lowest_m = height_m + stage.drop_m  # above the lowest ground
+    ground_m = np.where(falls * edge_m > lowest_m, lowest_m / np.maximum(falls, 1e-9), edge_m)
+    nearest_m = (height_m - stage.rise_m) / lowest_m * ground_m.min()
     depths_m = np.concatenate([ground_m, [max(nearest_m, _NEAREST_M)], *rocks_m])
     ahead_m = depths_m[depths_m > _NEAREST_M]
     return float(ahead_m.min()) * (1.0 - _SLACK), float(ahead_m.max()) * (1.0 + _SLACK)
@@ -130,7 +132,7 @@ def _hidden_groups(
     """Rocks whose boxes overlap another's, in groups without overlap inside; all if crowded.
 
     A rock whose box is free of all others is seen whole: its label is its silhouette already; one
-    whose box is outside the frame is not seen at all.
+    whose box is outside the frame is not seen at all. On hiding ground any rock may be covered.
     """
     if not boxes_px:
         return []

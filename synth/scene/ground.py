@@ -1,13 +1,19 @@
-"""Ground: a plane with a slope, sand ripples and pebbles."""
+"""Ground: a plane with a slope, sand ripples and pebbles; or rough ground."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
+from msgspec import UnsetType
 
 from synth.arrays import Floats
 from synth.geometry.mesh import Mesh, vertex_normals
 from synth.scene.pebbles import pebbles
 from synth.spec.ground import GroundSpec
+from synth.terrain.grid import grid_faces
+from synth.terrain.make import RoughGround, rough_heights
+from synth.terrain.skin import PebbleSkin, Skin
 
 HALF_SIDE_M = 150.0
 _CELLS_PER_RIPPLE = 10
@@ -15,6 +21,57 @@ _MAX_CELLS = 700  # along a side of the rippled part
 _GROWTH = 1.25  # of the cells outside of it
 _WANDER = 0.6  # how far crests stray from straight lines, in ripple lengths
 _SECOND = 0.2  # amplitude of the second harmonic, which sharpens the crests
+
+
+class SceneGround(Protocol):
+    """Ground of a scene: what rocks settle on, and what renderers and the painter see."""
+
+    @property
+    def gradient(self) -> Floats:
+        """Mean slope, (2,)."""
+
+    @property
+    def even(self) -> bool:
+        """Whether it is a plane."""
+
+    def rise_m(self, meshes: Sequence[Mesh]) -> float:
+        """Height of the ground's meshes above the plane of its mean slope, near the rocks."""
+
+    @property
+    def drop_m(self) -> float:
+        """Depth below that plane that counts for the farthest ground in view."""
+
+    @property
+    def hiding(self) -> bool:
+        """Whether it may hide parts of any rock, by its relief or where rocks are sunk in it."""
+
+    @property
+    def haze_m(self) -> float | None:
+        """Distance that veils 63 % of what is seen through the air; None: clear."""
+
+    def heights_m(self, places_m: Floats) -> Floats:
+        """Heights z at places (..., 2)."""
+
+    def foot_m(self, places_m: Floats) -> Floats:
+        """Heights at which rocks at places (..., 2) are looked for in views."""
+
+    def unevenness_m(self, places_m: Floats) -> Floats:
+        """Heights above the plane at places (..., 2)."""
+
+    def lean(self, place_m: Floats, reach_m: float) -> Floats | None:
+        """Unit normal (3,) that a rock at a place leans along; None: that of the mean slope."""
+
+    def plane_normal(self) -> Floats | None:
+        """Unit normal, (3,), where the ground is a plane through the origin."""
+
+    def normal(self) -> Floats:
+        """Unit normal of the mean slope, (3,)."""
+
+    def meshes(self) -> tuple[Mesh, ...]:
+        """Surface first, then pebbles if there are any."""
+
+    def skins(self) -> tuple[Skin | None, ...]:
+        """Skin of each mesh; None: the ground's even albedo."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,11 +85,44 @@ class Terrain:
     radius_m: float
     stones: Mesh | None
 
+    @property
+    def even(self) -> bool:
+        """Whether there are no ripples."""
+        return self.ripple_height_m == 0.0
+
+    def rise_m(self, meshes: Sequence[Mesh]) -> float:
+        """Height of ripples and pebbles above the plane."""
+        up = self.normal()
+        return max(float((mesh.vertices_m @ up).max()) for mesh in meshes)
+
+    @property
+    def drop_m(self) -> float:
+        """Depth below the plane: that of ripples is small beside the slack of the limits."""
+        return 0.0
+
+    @property
+    def hiding(self) -> bool:
+        """Whether it hides parts of rocks: the silhouette of a free rock ends at the plane."""
+        return False
+
+    @property
+    def haze_m(self) -> float | None:
+        """Distance that veils: the air is clear."""
+        return None
+
     def heights_m(self, places_m: Floats) -> Floats:
         """Heights z at places (..., 2)."""
-        return np.asarray(places_m @ self.gradient + self.ripples_m(places_m))
+        return np.asarray(places_m @ self.gradient + self.unevenness_m(places_m))
 
-    def ripples_m(self, places_m: Floats) -> Floats:
+    def foot_m(self, places_m: Floats) -> Floats:
+        """Heights of the plane at places (..., 2)."""
+        return np.asarray(places_m @ self.gradient)
+
+    def lean(self, place_m: Floats, reach_m: float) -> Floats | None:  # noqa: ARG002
+        """Normal that rocks lean along: that of the slope."""
+        return None
+
+    def unevenness_m(self, places_m: Floats) -> Floats:
         """Ripple heights at places (..., 2), half their height to both sides of the plane."""
         if self.ripple_height_m == 0.0:
             return np.zeros(places_m.shape[:-1])
@@ -45,7 +135,7 @@ class Terrain:
 
     def plane_normal(self) -> Floats | None:
         """Unit normal, (3,), where the ground is a plane through the origin."""
-        return None if self.ripple_height_m else self.normal()
+        return self.normal() if self.even else None
 
     def normal(self) -> Floats:
         """Slope's unit normal, (3,)."""
@@ -57,18 +147,15 @@ class Terrain:
         lines_m = self._grid_lines_m()
         places_m = np.stack(np.meshgrid(lines_m, lines_m), axis=-1).reshape(-1, 2)
         vertices_m = np.column_stack([places_m, self.heights_m(places_m)])
-        corner = np.arange(len(places_m)).reshape(len(lines_m), -1)
-        one, two, three, four = (
-            part.ravel()
-            for part in (corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1])
-        )
-        faces = np.concatenate(
-            [np.column_stack([one, two, three]), np.column_stack([one, three, four])]
-        )
+        faces = grid_faces(len(lines_m))
         surface = Mesh(
             vertices_m=vertices_m, faces=faces, normals=vertex_normals(vertices_m, faces)
         )
         return (surface,) if self.stones is None else (surface, self.stones)
+
+    def skins(self) -> tuple[Skin | None, ...]:
+        """Skins of surface and pebbles: none."""
+        return (None,) if self.stones is None else (None, None)
 
     def _grid_lines_m(self) -> Floats:
         """Grid lines of the mesh: evenly over the ripples, ever farther outside."""
@@ -83,8 +170,31 @@ class Terrain:
         return np.concatenate([-outer_m[::-1], inner_m, outer_m])
 
 
-def make_ground(spec: GroundSpec, *, radius_m: float, rng: np.random.Generator) -> Terrain:
-    """Ground, its ripples and pebbles within a radius of the scene's centre."""
+def make_ground(spec: GroundSpec, *, radius_m: float, rng: np.random.Generator) -> SceneGround:
+    """Ground, its relief and pebbles within a radius of the scene's centre.
+
+    Raises:
+        SpecError: too many pebbles, or an elevation model that cannot be used.
+    """
+    bare = _bare_ground(spec, radius_m=radius_m, rng=rng)
+    if isinstance(spec.terrain, UnsetType):
+        stones = pebbles(spec, bare.heights_m, radius_m=radius_m, rng=rng)
+        return replace(bare, stones=stones)
+    relief, loose = rng.spawn(2)
+    grid, skin = rough_heights(spec.terrain, under_m=bare.heights_m, radius_m=radius_m, rng=relief)
+    return RoughGround(
+        grid=grid,
+        gradient=bare.gradient,
+        radius_m=radius_m,
+        soil=skin,
+        pebble=PebbleSkin(spec.terrain.pebble),
+        stones=pebbles(spec, grid.heights_m, radius_m=radius_m, rng=loose, beyond=True),
+        haze_m=spec.terrain.haze_m,
+    )
+
+
+def _bare_ground(spec: GroundSpec, *, radius_m: float, rng: np.random.Generator) -> Terrain:
+    """Plane with its slope and ripples."""
     azimuth_rad = np.deg2rad(spec.slope_azimuth_deg)
     rise = np.tan(np.deg2rad(spec.slope_deg))
     gradient = rise * np.array([np.cos(azimuth_rad), np.sin(azimuth_rad)])
@@ -101,7 +211,7 @@ def make_ground(spec: GroundSpec, *, radius_m: float, rng: np.random.Generator) 
             for order in (1.0, 1.7, 2.9)
         ]
     )
-    bare = Terrain(
+    return Terrain(
         gradient=gradient,
         ripple_height_m=spec.ripple_height_m,
         wave_per_m=wave * np.array([np.cos(across_rad), np.sin(across_rad)]),
@@ -109,5 +219,3 @@ def make_ground(spec: GroundSpec, *, radius_m: float, rng: np.random.Generator) 
         radius_m=radius_m,
         stones=None,
     )
-    stones = pebbles(spec, bare.heights_m, radius_m=radius_m, rng=rng)
-    return Terrain(bare.gradient, bare.ripple_height_m, bare.wave_per_m, bends, radius_m, stones)

@@ -17,6 +17,7 @@ _CORNERS = 22
 _SHAPES = 12
 _STEEPNESS = 3.0  # numbers fall as diameter^−3, as in the smallest sizes of rock counts
 _MIN_AXIS = 0.5
+_FALL = 1.5  # power of the distance with which the least diameter grows outside of the disc
 
 
 def pebbles(
@@ -25,27 +26,41 @@ def pebbles(
     *,
     radius_m: float,
     rng: np.random.Generator,
+    beyond: bool = False,
 ) -> Mesh | None:
     """All pebbles on a disc as one mesh, or None where the spec wants none.
 
     Each is the hull of a few points on an ellipsoid, stretched, turned and sunk by half or so.
+    With `beyond` there are some outside of the disc too, the farther the larger the least of
+    them, as distance^1.5, so that those the eye can tell apart do not end at its edge.
 
     Raises:
         SpecError: too many.
     """
     count = round(spec.pebbles_per_m2 * np.pi * radius_m**2)
+    low_m, high_m = spec.pebble_diameter_m
+    nearness = (low_m / high_m) ** (1.0 / _FALL)  # radius of the disc over the farthest pebble's
+    outside = round(2.0 * spec.pebbles_per_m2 * np.pi * radius_m**2 * (1.0 - nearness))
+    outside = outside if beyond else 0
+    count += outside
     if count == 0:
         return None
     if count > _MAX_PEBBLES:
         raise SpecError(
             f"ground.pebbles_per_m2: expected at most {_MAX_PEBBLES} pebbles on a disc of "
-            f"{radius_m:g} m, found {count}"
+            f"{radius_m:g} m{' and round it' if beyond else ''}, found {count}"
         )
     shapes = [_shape(rng) for _ in range(_SHAPES)]
-    low, high = (value ** (1.0 - _STEEPNESS) for value in spec.pebble_diameter_m)
-    sizes_m = rng.uniform(high, low, size=count) ** (1.0 / (1.0 - _STEEPNESS))
-    reach_m = radius_m * np.sqrt(rng.uniform(size=count))
-    azimuths_rad = rng.uniform(0.0, 2.0 * np.pi, size=count)
+    inside = count - outside
+    sizes_m = _sizes_m(np.full(inside, low_m), high_m, rng)
+    reach_m = radius_m * np.sqrt(rng.uniform(size=inside))
+    azimuths_rad = rng.uniform(0.0, 2.0 * np.pi, size=inside)
+    if outside:
+        far = 1.0 / rng.uniform(nearness, 1.0, size=outside)
+        sizes_m = np.concatenate([sizes_m, _sizes_m(low_m * far**_FALL, high_m, rng)])
+        reach_m = np.concatenate([reach_m, radius_m * far])
+        turns_rad = rng.uniform(0.0, 2.0 * np.pi, size=outside)
+        azimuths_rad = np.concatenate([azimuths_rad, turns_rad])
     places_m = reach_m[:, None] * np.column_stack([np.cos(azimuths_rad), np.sin(azimuths_rad)])
     heights = heights_m(places_m)
     yaws_rad = rng.uniform(0.0, 2.0 * np.pi, size=count)
@@ -62,6 +77,13 @@ def pebbles(
     vertices_m, all_faces = np.concatenate(vertices), np.concatenate(faces)
     normals = vertex_normals(vertices_m, all_faces)
     return Mesh(vertices_m=vertices_m, faces=all_faces, normals=normals)
+
+
+def _sizes_m(least_m: Floats, most_m: float, rng: np.random.Generator) -> Floats:
+    """Diameters, (n,), each between its least and the most."""
+    power = 1.0 - _STEEPNESS
+    drawn = rng.uniform(most_m**power, least_m**power, size=len(least_m))
+    return np.asarray(drawn ** (1.0 / power))
 
 
 def _shape(rng: np.random.Generator) -> tuple[Floats, NDArray[np.int64]]:

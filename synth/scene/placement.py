@@ -1,6 +1,6 @@
 """Placement of rocks: apart from one another, and either in every view or all over a disc."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,7 +27,7 @@ class PlacementArea:
     reach_m: float  # from the scene's centre
     spacing: float  # least distance of two places over the sum of the rocks' radii
     frustums: Sequence[Floats]  # (4, 4) each, see `frustum`
-    gradient: Floats  # (2,), of the ground's plane
+    foot_m: Callable[[Floats], Floats]  # heights of the ground, or of its plane, at places (n, 2)
 
 
 def scatter(meshes: Sequence[Mesh], yard: PlacementArea, *, rng: np.random.Generator) -> Floats:
@@ -35,7 +35,7 @@ def scatter(meshes: Sequence[Mesh], yard: PlacementArea, *, rng: np.random.Gener
 
     The distance between two places is at least spacing × the sum of the rocks' radii about the
     vertical; a sphere round each rock is inside every frustum. Places are drawn evenly over the
-    ground, a plane of the given gradient; when one rock finds none, all start afresh.
+    ground; when one rock finds none, all start afresh.
 
     Raises:
         SpecError: the ground is full.
@@ -70,7 +70,7 @@ def _thrown(
         places_m = np.empty((0, 2))
         for radius_m, middle_m, sphere_m in zip(radii_m, middles_m, spheres_m, strict=True):
             darts_m = _over_disc_m(_DARTS, yard.reach_m, rng)
-            middles = middle_m + darts_m @ yard.gradient
+            middles = middle_m + yard.foot_m(darts_m)
             free = _inside(darts_m, middles, sphere_m, yard.frustums)
             gaps_m = np.linalg.norm(darts_m[:, None] - places_m, axis=2)
             least_m = yard.spacing * (radius_m + radii_m[: len(places_m)])

@@ -13,8 +13,15 @@ from synth.geometry.mesh import Mesh
 from synth.progress import counted
 from synth.rocks import RockModel, quarry
 from synth.scene.finish import Finish, draw_finishes, draw_wetness
-from synth.scene.ground import Terrain, make_ground
-from synth.scene.placement import PlacementArea, frustum, refuse_crowd, scatter, strew
+from synth.scene.ground import SceneGround, make_ground
+from synth.scene.placement import (
+    PlacementArea,
+    frustum,
+    reaches_m,
+    refuse_crowd,
+    scatter,
+    strew,
+)
 from synth.scene.population import draw_diameters_m
 from synth.scene.settling import buried_fraction, settle, shortest_turn
 from synth.scene.thing_placement import place_things, reach_in_view_m
@@ -27,6 +34,7 @@ _LYING, _GROUND, _POPULATION, _SHARED = 1, 2, 3, 12
 _FINISH, _WETNESS, _THINGS = 31, 33, 34
 _ROOM_M = 0.4  # kept free of a population's rocks round the foot of each station
 _CROWD, _SAMPLE = 24, 12  # more rocks than the first are tried with the second before all are made
+_FOOT_REACH = 0.6  # of a rock's radius: the ground so far round its centre makes it lean
 _FOOT = 0.15  # vertices in this lowest share of a rock's height are its foot
 
 
@@ -60,7 +68,7 @@ class SceneModel:
     rocks: tuple[PlacedRock, ...]
     camera: RenderCamera
     poses: tuple[Pose, ...]
-    ground: Terrain
+    ground: SceneGround
     wetness: float = 0.0  # 0 dry … 1 under a film of water
     things: tuple[PlacedThing, ...] = ()  # no rocks
     mast_shadow: bool = False  # the camera's own mast shades the ground
@@ -84,7 +92,7 @@ def build_scene(spec: SceneSpec, index: int) -> SceneModel:
         reach_m=reach_m,
         spacing=spec.rocks.spacing,
         frustums=[frustum(camera, pose) for pose in poses],
-        gradient=ground.gradient,
+        foot_m=ground.foot_m,
     )
     if counted and spec.rocks.count > _CROWD:
         _refuse_crowd(spec, yard, ground, rng=np.random.default_rng([spec.seed, index]))
@@ -159,14 +167,14 @@ def _feet_m(poses: Sequence[Pose]) -> Floats:
     return np.array([[*pose.position_m()[:2], _ROOM_M] for pose in poses])
 
 
-def _onto(ground: Terrain) -> Floats:
+def _onto(ground: SceneGround) -> Floats:
     """Rotation that lays what stands upright onto the slope."""
     return shortest_turn(np.array([0.0, 0.0, 1.0]), ground.normal())
 
 
 def _stood(
     rock: RockModel,
-    ground: Terrain,
+    ground: SceneGround,
     *,
     rng: np.random.Generator,
     falling: np.random.Generator | None,
@@ -180,7 +188,7 @@ def _stood(
 
 
 def _refuse_crowd(
-    spec: SceneSpec, yard: PlacementArea, ground: Terrain, *, rng: np.random.Generator
+    spec: SceneSpec, yard: PlacementArea, ground: SceneGround, *, rng: np.random.Generator
 ) -> None:
     """Raise SpecError if by far not all rocks fit: a few are made and laid over and over.
 
@@ -191,28 +199,36 @@ def _refuse_crowd(
     refuse_crowd(spec.rocks.count, meshes, yard, rng=rng)
 
 
+def _reach_m(standing: _Standing) -> float:
+    """Half the breadth of a rock's foot, or nearly."""
+    return _FOOT_REACH * float(reaches_m([standing.mesh])[0])
+
+
 def _lay(
     standing: _Standing,
     place_m: Floats,
-    ground: Terrain,
+    ground: SceneGround,
     *,
     burial: float,
     albedo: float,
     finish: Finish,
 ) -> PlacedRock:
-    """Rock lying at a place: on the plane, in ripples to the mean depth of its foot.
+    """Rock lying at a place: on the plane, on uneven ground to the mean depth of its foot.
 
     `burial` is the share of its height above the lowest point that sinks below the ground.
     """
     rock, turn, above_m = standing.rock, standing.turn, standing.height_m
-    if ground.gradient.any() or ground.ripple_height_m or burial:
+    lean = ground.lean(place_m, _reach_m(standing))
+    if lean is not None:
+        turn = shortest_turn(ground.normal(), lean) @ turn
+    if ground.gradient.any() or not ground.even or burial:
         start = np.array([place_m[0], place_m[1], 0.0])
         body = rock.mesh.moved(turn, start).vertices_m
         clearances_m = body[:, 2] - ground.heights_m(body[:, :2])
         low_m, tall_m = float(clearances_m.min()), float(np.ptp(clearances_m))
-        if ground.ripple_height_m:
+        if not ground.even:
             foot = body[body[:, 2] <= body[:, 2].min() + _FOOT * np.ptp(body[:, 2])]
-            low_m += float(ground.ripples_m(foot[:, :2]).std())
+            low_m += float(ground.unevenness_m(foot[:, :2]).std())
         above_m = burial * -tall_m - low_m
     position_m = np.array([place_m[0], place_m[1], above_m])
     mesh = rock.mesh.moved(turn, position_m)

@@ -14,6 +14,7 @@ from synth.spec.light import LightSpec
 from synth.spec.population import PopulationSpec
 from synth.spec.rocks import RocksSpec
 from synth.spec.sensor import NoiseSpec, SensorSpec
+from synth.spec.site import with_site
 from synth.spec.surface import SurfaceSpec
 from synth.spec.things import ThingsSpec
 from synth.spec.tints import TintsSpec
@@ -27,7 +28,11 @@ Seed = Annotated[int, Meta(ge=0, le=2**63 - 1)]
 
 
 class SceneSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """Specification of a dataset. Scene i is a function of the spec and i alone."""
+    """Specification of a dataset. Scene i is a function of the spec and i alone.
+
+    It is complete in itself: without a table `ground.terrain` the ground is plain. Sites, which
+    bring one, are laid under what a TOML file or the arguments of `make_scene` say.
+    """
 
     seed: Seed = 0
     scenes: Annotated[int, Meta(ge=1, le=MAX_SCENES)] = 1
@@ -84,12 +89,12 @@ def tints_of(spec: SceneSpec) -> TintsSpec | UnsetType:
 
 
 def load_spec(path: Path) -> SceneSpec:
-    """Specification read from a TOML file; keys that it leaves out keep their defaults.
+    """Specification read from a TOML file; keys that it leaves out are those of its site.
 
     Raises:
         SpecError: the file is missing, is no TOML, or holds a key or value that is not allowed.
     """
-    return convert_spec(read_toml(path), where=str(path))
+    return convert_spec(with_site(read_toml(path), where=str(path)), where=str(path))
 
 
 def convert_spec(table: object, *, where: str) -> SceneSpec:

@@ -2,9 +2,10 @@
 
 from typing import Annotated, Literal
 
-from msgspec import Meta, Struct
+from msgspec import UNSET, Meta, Struct, UnsetType
 
 from synth.spec.limits import Degrees, Fraction, Positive, PositiveRange, check_range
+from synth.spec.terrain import TerrainSpec
 
 
 class GroundSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -19,6 +20,7 @@ class GroundSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     pebble_diameter_m: PositiveRange = (0.008, 0.03)
     burial: tuple[Fraction, Fraction] = (0.0, 0.0)  # share of a rock's height below the ground
     resting: Literal["flattest", "stable"] = "flattest"  # lowest centroid; or any stable side
+    terrain: TerrainSpec | UnsetType = UNSET  # rough ground; not written to manifests unless given
 
     def __post_init__(self) -> None:
         """Require ranges in rising order, and ripples with slopes that sand can have."""

@@ -21,7 +21,7 @@ from tests.hostile.cases import SUITE, usual_files
 from tests.hostile.disturbances import WAYS, Run, Way, can_mount, start
 
 SPEC = (
-    'scenes = 2\nrenderer = "embree"\n[rocks]\ncount = 2\nseries = "random"\n'
+    'site = "plain"\nscenes = 2\nrenderer = "embree"\n[rocks]\ncount = 2\nseries = "random"\n'
     'family = "rounded-box"\n[camera]\npreset = "imp"\nsupersample = 1\n[views]\ncount = 1\n'
 )
 TIMED = ("index.html", "junit.xml")  # tell how long the run took

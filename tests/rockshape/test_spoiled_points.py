@@ -70,7 +70,8 @@ def ball() -> tuple[np.ndarray, np.ndarray, object]:
 
 def rocks(seed: int, noise: str) -> tuple[np.ndarray, np.ndarray, object]:
     """Rendered rocks of a seed that no constant was chosen on."""
-    view = synth.make_scene(rocks=6, camera="msl-navcam", seed=seed).render(0, noise=noise)
+    scene = synth.make_scene(site="plain", rocks=6, camera="msl-navcam", seed=seed)
+    view = scene.render(0, noise=noise)
     labels = np.asarray(view.labels).astype(np.int32)
     large = np.flatnonzero(np.bincount(labels.ravel()) >= MIN_PX)
     return view.depth_m, np.where(np.isin(labels, large), labels, 0), view.camera

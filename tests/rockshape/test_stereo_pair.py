@@ -185,7 +185,7 @@ def test_the_summary_says_how_many_points_were_matched(
 
 
 def test_synths_rendered_pair() -> None:
-    scene = synth.make_scene(rocks=3, camera="imp", seed=5)
+    scene = synth.make_scene(site="plain", rocks=3, camera="imp", seed=5)
     view = scene.render(0, noise="sgm")
     camera = SimpleNamespace(
         **{name: getattr(view.camera, name) for name in ("fx", "fy", "cx", "cy")},

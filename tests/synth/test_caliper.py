@@ -146,6 +146,7 @@ def test_form_roundness_and_roughness_are_told_apart():
 
 def test_scenes_tell_the_further_truth_with_nan_and_reasons():
     scene = synth.make_scene(
+        site="plain",
         rocks={"count": 1, "family": "scan", "scans": ["examples/rocks/apollo_sample2.ply"]},
         views=1,
         camera="imp",

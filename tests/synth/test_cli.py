@@ -16,6 +16,7 @@ from synth.render import backends
     ("options", "words"),
     [
         (["scene", "--camera", "foo"], ["--camera", "imp", "msl-navcam", "'foo'"]),
+        (["scene", "--site", "mars"], ["--site", "pathfinder", "plain", "'mars'"]),
         (["scene", "--renderer", "foo"], ["--renderer", "osmesa", "'foo'"]),
         (["scene", "--noise", "radar"], ["--noise", "none", "stereo", "sgm", "'radar'"]),
         (["scene", "--camera", "msl-navcm"], ["did you mean 'msl-navcam'?"]),
@@ -23,7 +24,7 @@ from synth.render import backends
         (["scene", "--rocks", "501"], ["--rocks", "1 to 500", "found 501"]),
         (["scene", "--views", "501"], ["--views", "1 to 500", "found 501"]),
         (["scene", "--scenes", "10000"], ["--scenes", "1 to 9999", "found 10000"]),
-        (["scene", "--rocks", "60"], ["rocks.count", "at most", "found 60"]),
+        (["scene", "--site", "plain", "--rocks", "60"], ["rocks.count", "at most", "found 60"]),
         (["scene", "--seed", "-1"], ["--seed"]),
         (["scene", "--jobs", "0"], ["--jobs"]),
         (["scene", "--spec", "absent.toml"], ["absent.toml", "TOML"]),

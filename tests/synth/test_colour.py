@@ -102,7 +102,13 @@ def test_normals_come_back_from_sixteen_bits():
 @pytest.fixture(scope="module")
 def scene():
     return synth.make_scene(
-        rocks=2, camera="imp", views=1, seed=3, renderer="embree", image={"colour": True}
+        site="plain",
+        rocks=2,
+        camera="imp",
+        views=1,
+        seed=3,
+        renderer="embree",
+        image={"colour": True},
     )
 
 

@@ -16,6 +16,7 @@ from synth.spec.dataset import DatasetSpec
 from synth.spec.image import ImageSpec
 from synth.spec.light import LightSpec
 from synth.spec.rocks import FAMILIES, RocksSpec
+from synth.spec.terrain import TerrainSpec
 from synth.spec.things import ThingsSpec
 from synth.spec.tints import TintsSpec
 from synth.spec.truth import TruthSpec
@@ -77,7 +78,7 @@ def defaults_of(table):
     return {
         key: None if value is msgspec.UNSET else list(value) if isinstance(value, tuple) else value
         for key, value in plain.items()
-        if not isinstance(value, msgspec.Struct)
+        if not isinstance(value, msgspec.Struct) and key != "terrain"
     }
 
 
@@ -86,7 +87,7 @@ def defaults_of(table):
     [
         ("`[rocks]`", [DEFAULT.rocks, DEFAULT.rocks.realism]),
         ("`[population]`", [DEFAULT.population]),
-        ("`[ground]`", [DEFAULT.ground]),
+        ("`[ground]`", [DEFAULT.ground, TerrainSpec()]),
         ("`[surface]` and `[sun]`", [DEFAULT.surface, DEFAULT.sun]),
         ("`[image]`, `[tints]` and `[light]`", [ImageSpec(), TintsSpec(), LightSpec()]),
         ("`[things]`", [ThingsSpec()]),

@@ -23,6 +23,7 @@ from synth.render import backends
 from tests.synth.plugins.scanner import SCANNER
 
 SPEC = {
+    "site": "plain",
     "seed": 5,
     "rocks": {"count": 3, "diameter_m": [0.5, 0.6]},
     "camera": {"preset": "imp"},
@@ -30,7 +31,7 @@ SPEC = {
 }
 LINES = (
     "import synth\n"
-    "scene = synth.make_scene(rocks=2, views=1, camera='imp', seed=2)\n"
+    "scene = synth.make_scene(site='plain', rocks=2, views=1, camera='imp', seed=2)\n"
     "view = scene.render(0, noise='stereo')\n"
     "print(view.image.shape, len(view.truth), int(view.labels.max()))\n"
 )
@@ -237,7 +238,7 @@ def test_numbers_of_numpy_are_numbers():
 
 
 def test_rocks_that_do_not_fit_are_the_callers_error():
-    crowd = synth.make_scene(rocks=60, camera="msl-navcam")
+    crowd = synth.make_scene(site="plain", rocks=60, camera="msl-navcam")
     with pytest.raises(synth.SpecError, match=r"rocks\.count"):
         crowd.render(0)
 

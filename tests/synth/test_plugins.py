@@ -110,7 +110,7 @@ def distribution(folder: Path) -> None:
 def test_entry_points_add_a_sensor_and_a_family(tmp_path):
     distribution(tmp_path)
     (tmp_path / "spec.toml").write_text(
-        '[rocks]\ncount = 2\nfamily = "brick"\nseries = "random"\n'
+        'site = "plain"\n[rocks]\ncount = 2\nfamily = "brick"\nseries = "random"\n'
         '[camera]\npreset = "imp"\n[views]\ncount = 1\n[noise]\nkind = "scanner"\n'
         "[noise.options]\nrows_apart = 2\n"
     )
@@ -133,7 +133,7 @@ def test_a_module_of_the_current_folder_registers_on_the_command_line(
     tmp_path, monkeypatch, capsys
 ):
     monkeypatch.chdir(tmp_path)
-    options = ["--rocks", "2", "--views", "1", "--camera", "imp"]
+    options = ["--site", "plain", "--rocks", "2", "--views", "1", "--camera", "imp"]
     command = ["synth", "scene", "out", *options, "--noise", "scanner"]
     assert main([*command, "--plugin", "absent_module"]) == 2
     assert "--plugin: expected a module" in capsys.readouterr().err

@@ -18,6 +18,7 @@ from synth.spec import load_spec
 from tests.digests import digests
 
 SPEC = """
+site = "plain"
 seed = 21
 scenes = 3
 [rocks]

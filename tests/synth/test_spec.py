@@ -12,9 +12,9 @@ from synth.spec.bed import convert_bed_spec
 from synth.spec.complaint import complaint
 
 
-def test_empty_file_is_the_default(tmp_path):
+def test_a_plain_file_is_the_default_specification(tmp_path):
     path = tmp_path / "spec.toml"
-    path.write_text("")
+    path.write_text('site = "plain"')
     assert load_spec(path) == SceneSpec()
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synth.arrays import Singles
-from synth.bed.relief.noise import cells, fractal, wrapped
+from synth.noise import cells, fractal, wrapped
 
 SIDE = 512  # samples of the maps along a side
 PER_PX = 2.0  # of them in a pixel, on a rock of 30 px

@@ -13,8 +13,8 @@ import cv2
 import numpy as np
 
 from synth.arrays import Floats, Singles
-from synth.bed.relief.noise import fractal
 from synth.bed.relief.outline import DIRECTIONS, make_gauge, moments, padded
+from synth.noise import fractal
 
 SIDE = 96  # samples along a side of the stored square
 REACH = 1.45  # half that side, in units in which outlines lie near 1

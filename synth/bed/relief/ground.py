@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synth.arrays import Singles
-from synth.bed.relief.noise import cells, fractal, stones, wrapped
+from synth.noise import cells, fractal, stones, wrapped
 from synth.spec.bed import BedGround
 
 SIDE = 512  # samples of the periodic tiles along a side

@@ -8,7 +8,7 @@ import pytest
 
 from synth.bed.picture.photograph import Photograph, photograph
 from synth.bed.picture.shadows import normals_of, shadow_depth, sky_share
-from synth.bed.relief.noise import cells, fractal
+from synth.noise import cells, fractal
 
 
 @pytest.fixture

@@ -6,6 +6,7 @@ pytest_plugins = ["pytester"]
 
 SPEC = """
 SPEC = {
+    "site": "plain",
     "seed": 3,
     "renderer": "embree",
     "rocks": {"count": 2, "family": "rounded-box"},
@@ -96,6 +97,8 @@ def test_fixtures_are_listed_with_what_they_give(pytester) -> None:
 @pytest.mark.parametrize("words", [(), ("-p", "no:cacheprovider")])
 def test_without_a_cache_nothing_is_left(pytester, words, monkeypatch, tmp_path) -> None:
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    pytester.makepyfile("def test_scene(rockshape_scene):\n    rockshape_scene(seed=1)\n")
+    pytester.makepyfile(
+        "def test_scene(rockshape_scene):\n    rockshape_scene(site='plain', seed=1)\n"
+    )
     pytester.runpytest_inprocess("--rockshape-no-cache", *words).assert_outcomes(passed=1)
     assert list(tmp_path.glob("rockshape-pytest-*")) == []

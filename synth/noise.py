@@ -1,4 +1,7 @@
-"""Periodic random fields: fractal noise, cells and stones on a square that repeats itself."""
+"""Periodic random fields: fractal noise, cells and stones on a square that repeats itself.
+
+Grounds of scenes, gravel beds and the textures of their grains are made of them.
+"""
 
 import cv2
 import numpy as np
@@ -9,11 +12,21 @@ from synth.arrays import Singles
 
 Field = Singles  # (side, side), both edges join
 
+_LEAST_SIDE = 8  # of the coarsest halving
+_ROW = 1 << 12  # cv2.remap takes images, so long lists of places are folded into rows
 
-def fractal(side: int, slope: float, rng: np.random.Generator, *, finest_px: float = 0.0) -> Field:
+
+def fractal(
+    side: int,
+    slope: float,
+    rng: np.random.Generator,
+    *,
+    finest_px: float = 0.0,
+    longest_px: float = np.inf,
+) -> Field:
     """Gaussian field of zero mean and unit variance whose power falls as frequency^−slope.
 
-    Waves shorter than `finest_px` are left out.
+    Waves shorter than `finest_px` or longer than `longest_px` are left out.
     """
     down = fft.fftfreq(side)[:, None]
     across = fft.rfftfreq(side)[None, :]
@@ -23,6 +36,7 @@ def fractal(side: int, slope: float, rng: np.random.Generator, *, finest_px: flo
     if finest_px > 0.0:
         gain *= np.exp(-((frequency * finest_px) ** 2))
     gain[0, 0] = 0.0
+    gain[frequency < 1.0 / longest_px] = 0.0
     white = fft.rfft2(rng.standard_normal((side, side)))
     field = fft.irfft2(white * gain, s=(side, side))
     return np.asarray(field / field.std(), dtype=np.float32)
@@ -95,3 +109,46 @@ def wrapped(maps: Field, columns: Field, rows: Field) -> Field:
         cv2.remap(maps, columns, rows, cv2.INTER_LINEAR, borderMode=cv2.BORDER_WRAP),
         dtype=np.float32,
     )
+
+
+class MipMap:
+    """Periodic maps with their halvings, to be looked up averaged over a footprint."""
+
+    def __init__(self, maps: Field) -> None:
+        """Take maps (side, side) or (side, side, channels), at most four; side is a power of 2."""
+        self._levels = [np.ascontiguousarray(maps, dtype=np.float32)]
+        while len(self._levels[-1]) > _LEAST_SIDE:
+            one = self._levels[-1]
+            self._levels.append(
+                (one[::2, ::2] + one[1::2, ::2] + one[::2, 1::2] + one[1::2, 1::2])
+                * np.float32(0.25)
+            )
+
+    def at(self, columns: Singles, rows: Singles, footprint: Singles) -> Singles:
+        """Maps at places (n,) in samples, as (n,) or (n, channels), linear between samples.
+
+        footprint (n,) is the side, in samples, of the square that each value stands for.
+        """
+        level = np.rint(np.log2(np.maximum(footprint, 1.0))).astype(np.int64)
+        level = np.minimum(level, len(self._levels) - 1)
+        found = np.empty((len(columns), *self._levels[0].shape[2:]), dtype=np.float32)
+        for number in np.unique(level):
+            here = np.flatnonzero(level == number)
+            maps, shrink = self._levels[number], 0.5**number
+            found[here] = _folded(
+                maps,
+                (columns[here] + 0.5) * shrink - 0.5,
+                (rows[here] + 0.5) * shrink - 0.5,
+            )
+        return found
+
+
+def _folded(maps: Field, columns: Singles, rows: Singles) -> Singles:
+    """Periodic maps at long lists of places, folded into the rows of an image for OpenCV."""
+    count = -(-len(columns) // _ROW)
+    places = np.zeros((2, count * _ROW), dtype=np.float32)
+    for place, coordinate in zip(places, (columns, rows), strict=True):
+        place[: len(columns)] = coordinate % len(maps)
+    across, down = places.reshape(2, count, _ROW)
+    seen = wrapped(maps, across, down)
+    return np.asarray(seen.reshape(count * _ROW, *maps.shape[2:])[: len(columns)])

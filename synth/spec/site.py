@@ -1,0 +1,33 @@
+"""Sites: tables of specifications that make a scene look like a place."""
+
+import tomllib
+from importlib.resources import files
+from typing import Any, Literal, get_args
+
+from synth.errors import SpecError
+from synth.spec.source import Table, merged
+from synth.spec.wording import expected_one_of
+
+SiteName = Literal["pathfinder", "gale", "dunes", "plain"]
+SITES: tuple[SiteName, ...] = get_args(SiteName)
+DEFAULT: SiteName = "pathfinder"
+
+
+def with_site(table: Table, *, where: str) -> Table:
+    """Tables with those of their `site` below them, and without that key.
+
+    `plain` has none: six rocks on a level grey plane in clear air.
+
+    Raises:
+        SpecError: no site has the name.
+    """
+    name = table.get("site", DEFAULT)
+    if name not in SITES:
+        raise SpecError(f"{where}: site: {expected_one_of(str(name), SITES)}")
+    said = {key: value for key, value in table.items() if key != "site"}
+    return said if name == "plain" else merged(_tables(name), said)
+
+
+def _tables(name: str) -> dict[str, Any]:
+    text = (files("synth.spec") / "sites" / f"{name}.toml").read_text("utf-8")
+    return tomllib.loads(text)

@@ -1,0 +1,6 @@
+"""Rough ground: relief at all scales, its skin of soil, dust, rock and pebbles, and its horizon.
+
+`layers` makes the relief of the field as periodic maps, `hills` what rises beyond it, `elevation`
+reads a height model, `grid` holds the heights as triangles, `skin` has their colours and what is
+finer than the triangles, `make` puts a ground together.
+"""

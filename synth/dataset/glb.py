@@ -6,6 +6,7 @@ import numpy as np
 import trimesh
 from trimesh.exchange.gltf import export_glb
 
+from synth.arrays import Floats
 from synth.light import Body, Stage
 
 _Y_UP = np.array(
@@ -13,6 +14,7 @@ _Y_UP = np.array(
 )
 _SURROUNDINGS = 1.25  # the ground is shown this much beyond the farthest rock
 _MIN_REACH_M = 0.5
+_PAINTED_M = 0.02  # paint is averaged over so much
 _PLAIN_FACES = 2  # of a ground that is a plane through the origin
 
 
@@ -54,12 +56,22 @@ def _near(body: Body, reach_m: float) -> Body:
 
 
 def _geometry(body: Body) -> trimesh.Trimesh:
-    colour = np.clip(np.rint(255.0 * body.albedo * body.tint), 0.0, 255.0)
-    colours = np.tile(np.array([*colour, 255], dtype=np.uint8), (len(body.vertices_m), 1))
+    colour = 255.0 * body.albedo * body.tint * _paint(body)
+    levels = np.clip(np.rint(colour), 0.0, 255.0).astype(np.uint8)
+    opaque = np.full((len(levels), 1), 255, dtype=np.uint8)
     return trimesh.Trimesh(
         vertices=body.vertices_m,
         faces=body.faces,
         vertex_normals=body.normals,
-        vertex_colors=colours,
+        vertex_colors=np.hstack([levels, opaque]),
         process=False,
     )
+
+
+def _paint(body: Body) -> Floats:
+    """Factor of a body's paint at its vertices, (n, 3)."""
+    if body.paint is None:
+        return np.ones((len(body.vertices_m), 3))
+    own_m = ((body.vertices_m - body.position_m) @ body.model_to_world).astype(np.float32)
+    sides_m = np.full(len(own_m), _PAINTED_M, dtype=np.float32)
+    return body.paint(own_m, sides_m).astype(np.float64)

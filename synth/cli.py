@@ -24,6 +24,7 @@ from synth.spec.dataset import LayoutName
 from synth.spec.limits import MAX_COUNT
 from synth.spec.sensor import SENSORS
 from synth.spec.shapes import JITTER_RMS_PX, SERIES_NAMES
+from synth.spec.site import DEFAULT as DEFAULT_SITE
 from synth.spec.site import SITES, with_site
 from synth.spec.source import Table
 from synth.spec.toml import read_toml

@@ -56,7 +56,7 @@ class Painter:
         self._mast = mast
         self._sun, self._surface = sun, surface
         self._haze_m = haze_m
-        self._relief = FineRelief(self._bodies)
+        self._relief = FineRelief([*rocks, *ground])
         self._plane = None if plane_normal is None else plane_normal.astype(np.float32)
         self._towards_sun = towards_sun(sun).astype(np.float32)
         self._reflectance = Reflectance(

@@ -8,7 +8,7 @@ from synth.arrays import Floats
 from synth.camera.camera import RenderCamera
 from synth.errors import SpecError
 from synth.geometry.mesh import Mesh
-from synth.scene.ground import Terrain
+from synth.scene.ground import SceneGround
 from synth.scene.settling import shortest_turn
 from synth.spec.things import ThingName, ThingsSpec
 from synth.things.meshes import tube
@@ -31,7 +31,7 @@ def reach_in_view_m(camera: RenderCamera, distance_m: float) -> float:
 
 def place_things(
     spec: ThingsSpec,
-    ground: Terrain,
+    ground: SceneGround,
     rocks: Sequence[Mesh],
     *,
     reach_m: float,
@@ -66,7 +66,11 @@ def _disc_m(mesh: Mesh) -> list[float]:
 
 
 def _standing(
-    model: ThingModel, ground: Terrain, taken_m: Floats, reach_m: float, rng: np.random.Generator
+    model: ThingModel,
+    ground: SceneGround,
+    taken_m: Floats,
+    reach_m: float,
+    rng: np.random.Generator,
 ) -> PlacedThing:
     """Thing on the slope, turned at random, at the first free place; in ripples at mean height."""
     radius_m = _disc_m(model.mesh)[2]
@@ -88,7 +92,7 @@ def _standing(
 
 
 def _cable(
-    spec: ThingsSpec, ground: Terrain, taken_m: Floats, reach_m: float, rng: np.random.Generator
+    spec: ThingsSpec, ground: SceneGround, taken_m: Floats, reach_m: float, rng: np.random.Generator
 ) -> PlacedThing:
     """Cable along a wandering line over the ground that passes between the rocks."""
     steps = max(4, round(spec.cable_m / _CABLE_STEP_M))

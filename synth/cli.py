@@ -6,9 +6,9 @@ What makes them is imported when it is asked for, so that `--help` is fast.
 import argparse
 import importlib
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import get_args
+from typing import Any, get_args
 
 import msgspec
 
@@ -26,7 +26,6 @@ from synth.spec.sensor import SENSORS
 from synth.spec.shapes import JITTER_RMS_PX, SERIES_NAMES
 from synth.spec.site import DEFAULT as DEFAULT_SITE
 from synth.spec.site import SITES, with_site
-from synth.spec.source import Table
 from synth.spec.toml import read_toml
 from synth.spec.view import PresetName
 from synth.spec.wording import expected_one_of
@@ -207,7 +206,7 @@ def _spec(args: argparse.Namespace) -> SceneSpec:
         check_number(args, option, most)
     check_number(args, "rocks", MAX_COUNT, least=0)
     _require("--site", args.site, SITES)
-    said: Table = {}
+    said: Mapping[str, Any] = {}
     if args.spec is not None:
         load_spec(args.spec)  # a complaint names the file
         said = read_toml(args.spec)

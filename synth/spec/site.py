@@ -1,11 +1,11 @@
 """Sites: tables of specifications that make a scene look like a place."""
 
 import tomllib
+from collections.abc import Mapping
 from importlib.resources import files
 from typing import Any, Literal, get_args
 
 from synth.errors import SpecError
-from synth.spec.source import Table, merged
 from synth.spec.wording import expected_one_of
 
 SiteName = Literal["pathfinder", "gale", "dunes", "plain"]
@@ -13,7 +13,7 @@ SITES: tuple[SiteName, ...] = get_args(SiteName)
 DEFAULT: SiteName = "pathfinder"
 
 
-def with_site(table: Table, *, where: str) -> Table:
+def with_site(table: Mapping[str, Any], *, where: str) -> Mapping[str, Any]:
     """Tables with those of their `site` below them, and without that key.
 
     `plain` has none: six rocks on a level grey plane in clear air.
@@ -21,6 +21,8 @@ def with_site(table: Table, *, where: str) -> Table:
     Raises:
         SpecError: no site has the name.
     """
+    from synth.spec.source import merged  # noqa: PLC0415 (needs numpy, a parser does not)
+
     name = table.get("site", DEFAULT)
     if name not in SITES:
         raise SpecError(f"{where}: site: {expected_one_of(str(name), SITES)}")

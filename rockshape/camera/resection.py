@@ -140,7 +140,8 @@ def _seen(parameters: NDArray[np.float64], points: NDArray[np.float64]) -> NDArr
     """Pixel coordinates (n, 2) of points (n, 3), from the principal point."""
     camera_points = _pose(parameters, points)
     depth = np.maximum(camera_points[:, 2], MIN_DEPTH_M)
-    return np.asarray(np.exp(parameters[6]) * camera_points[:, :2] / depth[:, None])
+    focal = np.exp(np.clip(parameters[6], -MAX_LOG_FOCAL, MAX_LOG_FOCAL))
+    return np.asarray(focal * camera_points[:, :2] / depth[:, None])
 
 
 def _misses(

@@ -33,7 +33,7 @@ def test_values_are_read(tmp_path):
     [
         ("sead = 3", "sead"),
         ("[rocks]\ncount = true", "rocks.count"),
-        ("[rocks]\ncount = 0", "rocks.count"),
+        ("[rocks]\ncount = -1", "rocks.count"),
         ("[rocks]\ndiameter_m = [0.4, 0.2]", "diameter_m"),
         ("[rocks]\nc_over_b = [0.001, 0.5]", "rocks.c_over_b"),
         ('[rocks]\nfamily = "mixed"\nseries = "graded"', "series"),
@@ -79,7 +79,7 @@ def test_complaints_name_file_and_key(tmp_path, text, key):
             {"rocks": {"albedo": [0.3, 2]}},
             "rocks.albedo[1]: expected a number above 0 and at most 1, found 2",
         ),
-        ({"rocks": {"count": "3"}}, "rocks.count: expected an integer from 1 to 500, found '3'"),
+        ({"rocks": {"count": "3"}}, "rocks.count: expected an integer from 0 to 500, found '3'"),
         (
             {"rocks": {"cuts": [9]}},
             "rocks.cuts: expected a list of 2 (an integer from 6 to 80), found [9]",

@@ -56,7 +56,7 @@ def test_the_suites_of_the_contract_are_there() -> None:
         ),
         ('kind = "multiview"\n', "", r"experiment\[0\].kind: expected one of"),
         ('kind = "multiview"', 'kind = "garden"', "expected 'pan', found"),
-        ("count = 6", "count = 0", r"experiment\[0\].scene.rocks.count: expected"),
+        ("count = 6", "count = -1", r"experiment\[0\].scene.rocks.count: expected"),
         ("seed = 10000", 'seed = 10000\nmethods = ["papr"]', "did you mean 'paper'"),
         (
             "[experiment.scene.rocks]",

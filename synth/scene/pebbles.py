@@ -32,31 +32,33 @@ def pebbles(
 
     Each is the hull of a few points on an ellipsoid, stretched, turned and sunk by half or so.
     With `beyond` there are some outside of the disc too, the farther the larger the least of
-    them, as distance^1.5, so that those the eye can tell apart do not end at its edge.
+    them, as distance^1.5, so that those the eye can tell apart do not end at its edge; where
+    there would be more than 60,000 in all, the smallest are left out.
 
     Raises:
         SpecError: too many.
     """
-    count = round(spec.pebbles_per_m2 * np.pi * radius_m**2)
     low_m, high_m = spec.pebble_diameter_m
-    nearness = (low_m / high_m) ** (1.0 / _FALL)  # radius of the disc over the farthest pebble's
-    outside = round(2.0 * spec.pebbles_per_m2 * np.pi * radius_m**2 * (1.0 - nearness))
-    outside = outside if beyond else 0
-    count += outside
+    expected = spec.pebbles_per_m2 * np.pi * radius_m**2
+    inside, outside = _counts(expected, low_m / high_m, beyond=beyond)
+    if beyond and inside + outside > _MAX_PEBBLES:
+        share = _MAX_PEBBLES / (inside + outside + 2)
+        low_m = _quantile_m(share, low_m, high_m)
+        inside, outside = _counts(expected * share, low_m / high_m, beyond=beyond)
+    count = inside + outside
     if count == 0:
         return None
     if count > _MAX_PEBBLES:
         raise SpecError(
             f"ground.pebbles_per_m2: expected at most {_MAX_PEBBLES} pebbles on a disc of "
-            f"{radius_m:g} m{' and round it' if beyond else ''}, found {count}"
+            f"{radius_m:g} m, found {count}"
         )
     shapes = [_shape(rng) for _ in range(_SHAPES)]
-    inside = count - outside
     sizes_m = _sizes_m(np.full(inside, low_m), high_m, rng)
     reach_m = radius_m * np.sqrt(rng.uniform(size=inside))
     azimuths_rad = rng.uniform(0.0, 2.0 * np.pi, size=inside)
     if outside:
-        far = 1.0 / rng.uniform(nearness, 1.0, size=outside)
+        far = 1.0 / rng.uniform(_nearness(low_m / high_m), 1.0, size=outside)
         sizes_m = np.concatenate([sizes_m, _sizes_m(low_m * far**_FALL, high_m, rng)])
         reach_m = np.concatenate([reach_m, radius_m * far])
         turns_rad = rng.uniform(0.0, 2.0 * np.pi, size=outside)
@@ -79,11 +81,27 @@ def pebbles(
     return Mesh(vertices_m=vertices_m, faces=all_faces, normals=normals)
 
 
+def _counts(expected: float, ratio: float, *, beyond: bool) -> tuple[int, int]:
+    """Numbers of pebbles on the disc and outside, of the least diameter over the greatest."""
+    return round(expected), round(2.0 * expected * (1.0 - _nearness(ratio))) if beyond else 0
+
+
+def _nearness(ratio: float) -> float:
+    """Radius of the disc over the farthest pebble's distance."""
+    return float(ratio ** (1.0 / _FALL))
+
+
 def _sizes_m(least_m: Floats, most_m: float, rng: np.random.Generator) -> Floats:
     """Diameters, (n,), each between its least and the most."""
     power = 1.0 - _STEEPNESS
     drawn = rng.uniform(most_m**power, least_m**power, size=len(least_m))
     return np.asarray(drawn ** (1.0 / power))
+
+
+def _quantile_m(share: float, least_m: float, most_m: float) -> float:
+    """Diameter that this share of pebbles exceeds."""
+    power = 1.0 - _STEEPNESS
+    return float((most_m**power + share * (least_m**power - most_m**power)) ** (1.0 / power))
 
 
 def _shape(rng: np.random.Generator) -> tuple[Floats, NDArray[np.int64]]:

@@ -201,7 +201,7 @@ def test_a_missing_renderer_passes_through(scene):
     ("source", "options", "words"),
     [
         (None, {"rockz": 3}, "make_scene: unknown argument 'rockz'; did you mean 'rocks'?"),
-        (None, {"rocks": -1}, "make_scene: rocks.count: expected an integer from 0 to 500, found -1"),
+        (None, {"rocks": -1}, "rocks.count: expected an integer from 0 to 500, found -1"),
         (None, {"camera": "msl-navcm"}, "did you mean 'msl-navcam'?"),
         (None, {"noise": "sterio"}, "noise.kind: expected one of none, stereo, sgm"),
         (None, {"sun": {"elevation": 3}}, "unknown key 'elevation' in [sun]; did you mean 'elev"),

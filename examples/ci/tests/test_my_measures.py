@@ -7,6 +7,7 @@ from my_measures import shape
 from validation.testing import assert_consistent, assert_ranks
 
 SCENE = {
+    "site": "plain",
     "seed": 7,
     "renderer": "embree",
     "rocks": {"count": 5, "series": "random", "b_over_a": [0.4, 1.0]},

@@ -18,7 +18,13 @@ from synth.spec.ground import GroundSpec
 from synth.spec.things import ThingsSpec
 from synth.things.record import CLASSES
 
-COMMON = {"camera": {"preset": "imp", "distance_m": 4}, "views": 1, "seed": 3, "renderer": "embree"}
+COMMON = {
+    "site": "plain",
+    "camera": {"preset": "imp", "distance_m": 4},
+    "views": 1,
+    "seed": 3,
+    "renderer": "embree",
+}
 
 
 @pytest.fixture(scope="module")

@@ -220,7 +220,7 @@ def test_levels_that_make_no_design_are_refused(tmp_path, key, value, complaint)
 @pytest.mark.parametrize(
     ("old", "new", "complaint"),
     [
-        ('kind = "stereo"', 'kind = "none"', "stereo or sgm"),
+        ('kind = "stereo"', 'kind = "none"', "expected a sensor with noise"),
         ("count = 2\n\n[experiment.scene.noise]", "count = 1\n\n[experiment.scene.noise]", "views"),
         ('preset = "imp"', 'preset = "imp"\nroll_deg = 3.0', "beside the experiment"),
         ("[experiment.scene.views]", "[experiment.scene.ground]\nslope_deg = 5.0\n\n"

@@ -13,6 +13,7 @@ from rockshape.observation import Observation
 from rockshape.pipeline import measure
 from synth.dataset.shape_truth import scene_gt_shape
 from synth.light import light_scene
+from synth.light.colour import luminance
 from synth.render import choose_backend, open_renderer, render_view
 from synth.render.view import RenderedView
 from synth.sensor import capture_view
@@ -72,12 +73,14 @@ def shots(spec: SceneSpec, experiment: DesignExperiment) -> Iterator[Shot]:
                 for sun, stage in enumerate(stages):
                     light = first.light
                     if sun > 0:
-                        light = stage.painter.paint(
-                            lens,
-                            pose,
-                            first.labels,
-                            first.depth_m,
-                            supersample=spec.camera.supersample,
+                        light = luminance(
+                            stage.painter.paint(
+                                lens,
+                                pose,
+                                first.labels,
+                                first.depth_m,
+                                supersample=spec.camera.supersample,
+                            )
                         )
                     capture = capture_view(
                         _under(first, light),

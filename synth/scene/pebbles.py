@@ -43,7 +43,7 @@ def pebbles(
     inside, outside = _counts(expected, low_m / high_m, beyond=beyond)
     if beyond and inside + outside > _MAX_PEBBLES:
         share = _MAX_PEBBLES / (inside + outside + 2)
-        low_m = _quantile_m(share, low_m, high_m)
+        low_m = float(_exceeded_m(share, low_m, high_m))
         inside, outside = _counts(expected * share, low_m / high_m, beyond=beyond)
     count = inside + outside
     if count == 0:
@@ -54,12 +54,13 @@ def pebbles(
             f"{radius_m:g} m, found {count}"
         )
     shapes = [_shape(rng) for _ in range(_SHAPES)]
-    sizes_m = _sizes_m(np.full(inside, low_m), high_m, rng)
+    sizes_m = _exceeded_m(rng.uniform(size=inside), low_m, high_m)
     reach_m = radius_m * np.sqrt(rng.uniform(size=inside))
     azimuths_rad = rng.uniform(0.0, 2.0 * np.pi, size=inside)
     if outside:
         far = 1.0 / rng.uniform(_nearness(low_m / high_m), 1.0, size=outside)
-        sizes_m = np.concatenate([sizes_m, _sizes_m(low_m * far**_FALL, high_m, rng)])
+        shares = rng.uniform(size=outside)
+        sizes_m = np.concatenate([sizes_m, _exceeded_m(shares, low_m * far**_FALL, high_m)])
         reach_m = np.concatenate([reach_m, radius_m * far])
         turns_rad = rng.uniform(0.0, 2.0 * np.pi, size=outside)
         azimuths_rad = np.concatenate([azimuths_rad, turns_rad])
@@ -91,17 +92,11 @@ def _nearness(ratio: float) -> float:
     return float(ratio ** (1.0 / _FALL))
 
 
-def _sizes_m(least_m: Floats, most_m: float, rng: np.random.Generator) -> Floats:
-    """Diameters, (n,), each between its least and the most."""
+def _exceeded_m(shares: Floats | float, least_m: Floats | float, most_m: float) -> Floats:
+    """Diameters that these shares of pebbles exceed, of those between a least and the most."""
     power = 1.0 - _STEEPNESS
-    drawn = rng.uniform(most_m**power, least_m**power, size=len(least_m))
-    return np.asarray(drawn ** (1.0 / power))
-
-
-def _quantile_m(share: float, least_m: float, most_m: float) -> float:
-    """Diameter that this share of pebbles exceeds."""
-    power = 1.0 - _STEEPNESS
-    return float((most_m**power + share * (least_m**power - most_m**power)) ** (1.0 / power))
+    least, most = np.asarray(least_m) ** power, most_m**power
+    return np.asarray((most + (least - most) * shares) ** (1.0 / power))
 
 
 def _shape(rng: np.random.Generator) -> tuple[Floats, NDArray[np.int64]]:

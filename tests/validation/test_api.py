@@ -181,8 +181,8 @@ def test_a_method_of_the_main_script_is_refused(suite, monkeypatch) -> None:
     ("arguments", "says"),
     [
         ({"suite": None}, "suite: expected a name, a TOML file or a Suite, found NoneType"),
-        ({"suite": "cii"}, "suite: expected one of .* did you mean 'ci'"),
-        ({"jobs": "two"}, "jobs: expected 1 or more, found 'two'"),
+        ({"suite": "cii"}, r"suite \(--suite\): expected one of .* did you mean 'ci'"),
+        ({"jobs": "two"}, r"jobs \(--jobs\): expected 1 or more, found 'two'"),
         ({"methods": [3]}, "methods: expected names or Method records, found int"),
     ],
 )

@@ -126,10 +126,10 @@ def _refused(arguments: list[str], capsys) -> str:
 
 def test_bad_arguments_are_one_line_and_status_2(tmp_path, suite_path, capsys) -> None:
     out = ["--out", str(tmp_path / "out")]
-    assert "suite: expected one of" in _refused(["--suite", "nope", *out], capsys)
+    assert "--suite" in _refused(["--suite", "nope", *out], capsys)
     assert "none.toml" in _refused(["--suite", str(tmp_path / "none.toml"), *out], capsys)
     suite = ["--suite", str(suite_path)]
-    assert "jobs: expected" in _refused([*suite, *out, "--jobs", "0"], capsys)
+    assert "--jobs" in _refused([*suite, *out, "--jobs", "0"], capsys)
     assert "--out" in _refused([*suite, "--out", str(tmp_path)], capsys)
     assert "none.toml" in _refused([*suite, *out, "--gates", str(tmp_path / "none.toml")], capsys)
     wrong = tmp_path / "wrong.toml"

@@ -77,7 +77,9 @@ def test_a_bad_key_is_named(tmp_path, old, new, named) -> None:
 
 
 def test_no_such_suite() -> None:
-    with pytest.raises(InputError, match=r"suite: expected one of burial, ci, .*found 'nope'"):
+    with pytest.raises(
+        InputError, match=r"suite \(--suite\): expected one of burial, ci, .*found 'nope'"
+    ):
         load_suite("nope")
 
 

@@ -135,7 +135,7 @@ def local(jobs: int) -> AbstractContextManager[Executor]:
         InputError: jobs is less than one, before anything is started or written.
     """
     if not isinstance(jobs, int) or jobs < 1:
-        raise InputError(f"jobs: expected 1 or more, found {jobs!r}")
+        raise InputError(f"jobs (--jobs): expected 1 or more, found {jobs!r}")
     return _local(jobs)
 
 

@@ -105,7 +105,8 @@ def load_suite(name_or_path: str) -> Suite:
         return as_suite(_parse(_read(Path(name_or_path)), where=name_or_path), where=name_or_path)
     if name_or_path not in suite_names():
         raise InputError(
-            f"suite: {expected_one_of(name_or_path, suite_names())}; or name a file ending in .toml"
+            f"suite (--suite): {expected_one_of(name_or_path, suite_names())}; "
+            "or name a file ending in .toml"
         )
     text = (files("validation") / "suites" / f"{name_or_path}.toml").read_text(encoding="utf-8")
     where = f"suite {name_or_path}"

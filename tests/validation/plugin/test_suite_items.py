@@ -184,7 +184,7 @@ def test_a_suite_that_cannot_be_used_is_told_by_a_worker_too(project) -> None:
 
 def test_no_such_suite(project) -> None:
     result = project.runpytest_inprocess("--rockshape-suite", "nope")
-    result.stdout.fnmatch_lines(["suite: expected one of *ci,*found 'nope'*"])
+    result.stdout.fnmatch_lines(["suite (--suite): expected one of *ci,*found 'nope'*"])
     assert result.ret == pytest.ExitCode.INTERRUPTED
 
 
@@ -192,7 +192,7 @@ def test_a_suite_that_cannot_run_is_one_line_a_gate_and_tried_once(project) -> N
     project.write(("at_least = 0.9", "r"), ("at_least = 0.8", "r"))
     result = _run(project, "--rockshape-jobs", "0")
     result.assert_outcomes(failed=2)
-    result.stdout.fnmatch_lines(["jobs: expected 1 or more, found 0"])
+    result.stdout.fnmatch_lines(["jobs (--jobs): expected 1 or more, found 0"])
     result.stdout.no_fnmatch_line("*Traceback*")
 
 

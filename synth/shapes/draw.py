@@ -4,14 +4,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypedDict
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
-from skimage.draw import polygon as polygon_pixels
 
 from synth.arrays import Floats
 from synth.errors import SpecError
 from synth.shapes.outline import axis_ratio, polygon_area
+from synth.shapes.raster import PAPER, enclosed_pixels, inked_cell
 from synth.shapes.roughness import RoughOutline, rough_outline
 from synth.shapes.series import Shape, shape_series
 from synth.spec.shapes import CHART, JITTER_RMS_PX, MAX_JITTER_PX, SIZES_PX
@@ -19,11 +18,7 @@ from synth.spec.shapes import CHART, JITTER_RMS_PX, MAX_JITTER_PX, SIZES_PX
 _CELL_PX = 260  # a shape's share of the row, unless its size is given
 _ROOM, _ROOM_PX = 1.12, 12  # of a given size's cells: share of the largest extent, and margin
 _CHART_COLUMNS = 9
-_SUBPIXELS = 4
-_PAPER, _FILL, _INK = 236, 168, 40  # grey levels
-_PEN_WIDTH_PX = 2.5
 _JITTER_WAVELENGTH_PX = 60.0
-_SHIFT_BITS = 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +48,7 @@ def draw_series(
     """
     across = len(shapes) if columns is None else columns
     rows, cols = cell_px * -(-len(shapes) // across), cell_px * across
-    image = np.full((rows, cols), _PAPER, dtype=np.uint8)
+    image = np.full((rows, cols), PAPER, dtype=np.uint8)
     labels = np.zeros((rows, cols), dtype=np.uint16)
     table, lines, middles = [], [], []
     for index, shape in enumerate(shapes):
@@ -69,10 +64,9 @@ def draw_series(
         middle = np.array([cell_px * (column + 0.5) - 0.5, cell_px * (row + 0.5) - 0.5])
         middle -= (exact.min(axis=0) + exact.max(axis=0)) / 2.0 * [1.0, -1.0]
         pixels = middle + drawn * [1.0, -1.0]
-        inside = polygon_pixels(pixels[:, 1], pixels[:, 0], shape=labels.shape)
-        labels[inside] = index + 1
+        labels[enclosed_pixels(pixels, labels.shape)] = index + 1
         corner = cell_px * np.array([column, row])
-        image[corner[1] : corner[1] + cell_px, corner[0] : corner[0] + cell_px] = _inked(
+        image[corner[1] : corner[1] + cell_px, corner[0] : corner[0] + cell_px] = inked_cell(
             pixels - corner, cell_px
         )
         table.append(_truth(index, shape, jitter_rms_px) | _rough_truth(rough))
@@ -194,22 +188,3 @@ def _unsteady(points: Floats, rms_px: float, rng: np.random.Generator) -> Floats
     normal = np.column_stack([tangent[:, 1], -tangent[:, 0]])
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
     return points + jitter[:, None] * normal
-
-
-def _inked(pixels: Floats, cell_px: int) -> NDArray[np.uint8]:
-    """One shape's cell of the picture: filled, its outline drawn."""
-    fine = np.full((cell_px * _SUBPIXELS, cell_px * _SUBPIXELS), _PAPER, dtype=np.uint8)
-    subpixels = (pixels + 0.5) * _SUBPIXELS - 0.5
-    fixed = np.rint(subpixels * 2**_SHIFT_BITS).astype(np.int32).reshape(-1, 1, 2)
-    cv2.fillPoly(fine, [fixed], _FILL, lineType=cv2.LINE_8, shift=_SHIFT_BITS)
-    cv2.polylines(
-        fine,
-        [fixed],
-        isClosed=True,
-        color=_INK,
-        thickness=round(_PEN_WIDTH_PX * _SUBPIXELS),
-        lineType=cv2.LINE_8,
-        shift=_SHIFT_BITS,
-    )
-    blocks = fine.reshape(cell_px, _SUBPIXELS, cell_px, _SUBPIXELS).mean(axis=(1, 3))
-    return np.asarray(np.rint(blocks), dtype=np.uint8)

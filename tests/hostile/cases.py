@@ -12,11 +12,15 @@ import numpy as np
 from rockshape.point_grid.points import KINDS
 from synth.spec import SceneSpec
 from tests.hostile import mutations
+from tests.hostile.scene import CAMERA, image
+from tests.hostile.seed_files.encoding import as_json, pillow
+from tests.hostile.seed_files.ranges import BASELINE_M
 from tests.hostile.seeds import readable_formats, seeds, seeds_of
 
 SIZE = 1600
 SHARES = {
-    "file": 0.46,
+    "file": 0.42,
+    "pair": 0.04,
     "folder": 0.04,
     "content": 0.12,
     "option": 0.12,
@@ -57,6 +61,7 @@ COMMANDS = {
     "validate compare": ("validate", "compare", "{run}", "{run}"),
     "formats": ("formats",),
 }
+GROUND_DISPARITY_PX = 4  # of the plane 2 m away with the baseline of 0.1 m
 WORDS = ("", " ", "-1", "0", "nan", "inf", "1e999", "9" * 400, "x" * 3000, "\x1b[31m\n\x00"[:6], "é≥",  # noqa: E501
          "\udcff", "{absent}", "{folder}", "{scene.png}", "/dev/zero", "/dev/null", "a=b", "a:b",
          "os:abort", "../..", "--", "-", "%s%n", "{labels.png}", "1,2", "{}")  # fmt: skip
@@ -74,7 +79,7 @@ class Case(NamedTuple):
 
 def cases(seed: int = 0, count: int = SIZE) -> Iterator[Case]:
     """So many cases, each kind's share of them."""
-    makers = {"file": _files, "folder": _folders, "content": _contents, "option": _options,
+    makers = {"file": _files, "pair": _pairs, "folder": _folders, "content": _contents, "option": _options,
               "suite": _suites, "spec": _specs, "run": _runs}  # fmt: skip
     for index, (kind, share) in enumerate(SHARES.items()):
         rng = np.random.default_rng([seed, index])
@@ -103,6 +108,21 @@ def _files(rng: np.random.Generator) -> Iterator[Case]:
         if one.kind == "range" and rng.random() < 0.4:
             case = case._replace(argv=(*case.argv, "--range-kind", str(rng.choice(KINDS))))
         yield case
+
+
+def _pairs(rng: np.random.Generator) -> Iterator[Case]:
+    """Stereo pairs of which the right picture or the camera is damaged."""
+    pictures = [seed for seed in seeds() if seed.kind == "image"]
+    stereo = [seed for seed in seeds() if seed.kind == "camera"]
+    for kind, files in cycle((("right", pictures), ("camera", stereo))):
+        seed = files[int(rng.integers(len(files)))]
+        as_json = seed.data.startswith(b"{") and rng.random() < 0.5
+        damage = mutations.retyped_json if as_json else mutations.damaged
+        file = f"hostile{seed.suffix}"
+        right, camera = ("{right.png}", "{stereo.json}")
+        pair = (f"{{{file}}}", camera) if kind == "right" else (right, f"{{{file}}}")
+        argv = (*MEASURE, "--labels", "{labels.png}", "--right", pair[0], "--camera", pair[1])
+        yield Case("measure", "pair", argv, {file: damage(seed.data, rng)}, f"{kind} damaged")
 
 
 def _folders(rng: np.random.Generator) -> Iterator[Case]:
@@ -262,6 +282,8 @@ def usual_files() -> dict[str, bytes]:
         "labels.png": first("labels", ".png"),
         "range.npy": first("range", ".npy"),
         "camera.json": first("camera", ".json"),
+        "right.png": pillow(np.roll(image(), -GROUND_DISPARITY_PX, axis=1), "PNG"),
+        "stereo.json": as_json({**CAMERA, "baseline_m": BASELINE_M}),
         "suite.toml": SUITE,
         "blocked": b"a file where a folder is expected",
     }

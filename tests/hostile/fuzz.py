@@ -25,17 +25,17 @@ from hypothesis import strategies as st
 import rockshape
 from rockshape.camera.lens import DisparityScale, Lens
 from rockshape.errors import InputError
-from rockshape.io import read_image, read_labels, read_lens, read_points
+from rockshape.io import read_image, read_labels, read_lens, read_pair, read_points
 from rockshape.point_grid.points import RangeKind
 from tests.hostile.judge import GRACE_S, LIMIT_S, MAX_GROWTH_BYTES, Stopwatch, peak_bytes
-from tests.hostile.scene import CAMERA, SHAPE
+from tests.hostile.scene import CAMERA, SHAPE, image
 from tests.hostile.seed_files import ranges
 from tests.hostile.seeds import Seed
 from tests.hostile.strategies import RANGE_KINDS, damaged_files, damaged_masks, observations
 
 MAX_FINDS = 50
 TICK_S = 1.0  # between alarms after the first
-EXAMPLES = {"readers": 450, "folders": 100, "measure": 300}  # a round
+EXAMPLES = {"readers": 450, "pairs": 60, "folders": 100, "measure": 300}  # a round
 COUNTS: Counter[tuple[str, str]] = Counter()  # by what was tried and its outcome
 
 
@@ -91,6 +91,15 @@ def readers(file: Seed, kind: RangeKind | None) -> None:
             READERS[file.kind](path, **({"kind": kind} if file.kind == "range" else {}))
 
 
+def pairs(file: Seed) -> None:
+    """A damaged right picture of a stereo pair is matched or refused."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / f"hostile{file.suffix}"
+        path.write_bytes(file.data)
+        with limited("pair"):
+            read_pair(path, left=image(), camera=LENS)
+
+
 def folders(files: dict[str, bytes]) -> None:
     """A folder of masks with a damaged one is read or refused."""
     with tempfile.TemporaryDirectory() as folder:
@@ -114,6 +123,7 @@ def measuring(arguments: dict[str, object], method: str, descriptors: bool) -> N
 
 FUZZERS = {
     "readers": (readers, (damaged_files(), RANGE_KINDS)),
+    "pairs": (pairs, (damaged_files(kind="image"),)),
     "folders": (folders, (damaged_masks(),)),
     "measure": (measuring, (observations(), st.sampled_from(("paper", "robust")), st.booleans())),
 }

@@ -13,9 +13,10 @@ RANGE_KINDS = st.sampled_from((None, None, *KINDS))  # None: what the file itsel
 
 
 @st.composite
-def damaged_files(draw: st.DrawFn) -> Seed:
-    """Damaged file of any readable format."""
-    one = draw(st.sampled_from(readable_formats()))
+def damaged_files(draw: st.DrawFn, kind: str | None = None) -> Seed:
+    """Damaged file of any readable format, or of those of a kind."""
+    formats = [one for one in readable_formats() if kind in (None, one.kind)]
+    one = draw(st.sampled_from(formats))
     seed_file = draw(st.sampled_from(seeds_of(one)))
     suffix = draw(st.sampled_from((seed_file.suffix, *one.suffixes)))
     return seed_file._replace(suffix=suffix, data=draw(damaged(seed_file.data)))

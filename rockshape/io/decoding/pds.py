@@ -2,6 +2,8 @@
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from rockshape.errors import InputError
 
 if TYPE_CHECKING:
@@ -52,6 +54,9 @@ def image_of(file: "InputFile") -> tuple[str, Any]:
     images = [name for name in names if "IMAGE" in name.upper() and "HEADER" not in name.upper()]
     images += [name for name in names if "ARRAY" in name.upper()]
     for name in images or names:
-        if getattr(product[name], "ndim", 0) in (2, 3) and product[name].dtype.kind in "biuf":
+        values = product[name]
+        if isinstance(values, np.ndarray) and values.ndim in (2, 3) and values.dtype.kind in "biuf":
             return name, product
-    raise InputError(f"{file.path}: expected a PDS image, found {', '.join(names) or 'nothing'}")
+    raise InputError(
+        f"{file.path}: expected a PDS image, found {', '.join(sorted(names)) or 'nothing'}; a table is none"
+    )

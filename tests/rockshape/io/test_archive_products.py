@@ -115,3 +115,34 @@ def test_the_rock_measures_as_from_an_array(tmp_path: Path, make: Make) -> None:
     assert np.isfinite(expected["sphericity_3d"])
     for name in numbers:
         assert found[name] == pytest.approx(expected[name], rel=0.005, nan_ok=True), name
+
+
+TABLE = """<?xml version="1.0" encoding="UTF-8"?>
+<Product_Observational xmlns="http://pds.nasa.gov/pds4/pds/v1">
+<Identification_Area><logical_identifier>urn:nasa:pds:rocks:data:xyz</logical_identifier>
+<version_id>1.0</version_id><title>points</title>
+<information_model_version>1.16.0.0</information_model_version>
+<product_class>Product_Observational</product_class></Identification_Area>
+<File_Area_Observational><File><file_name>points.tab</file_name></File>
+<Table_Binary><name>XYZ</name><offset unit="byte">0</offset><records>{records}</records>
+<Record_Binary><fields>3</fields><groups>0</groups><record_length unit="byte">12</record_length>
+{fields}</Record_Binary></Table_Binary></File_Area_Observational></Product_Observational>
+"""
+FIELD = """<Field_Binary><name>{name}</name><field_number>{number}</field_number>
+<field_location unit="byte">{first}</field_location><data_type>IEEE754LSBSingle</data_type>
+<field_length unit="byte">4</field_length></Field_Binary>"""
+
+
+def test_a_binary_table_of_pds4_is_refused_in_one_line(tmp_path: Path) -> None:
+    """After the PDS4 Standards Reference 1.16, section 4C, Table_Binary."""
+    fields = "".join(
+        FIELD.format(name=name, number=k + 1, first=4 * k + 1) for k, name in enumerate("XYZ")
+    )
+    points = POINTS.reshape(-1, 3).astype("<f4")
+    (tmp_path / "points.tab").write_bytes(points.tobytes())
+    (tmp_path / "points.xml").write_text(TABLE.format(records=len(points), fields=fields))
+    with pytest.raises(InputError) as refused:
+        read_points(tmp_path / "points.xml", shape=SHAPE, camera=None)
+    assert str(refused.value) == (
+        f"{tmp_path / 'points.xml'}: expected a PDS image, found XYZ, label; a table is none"
+    )

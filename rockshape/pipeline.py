@@ -1,6 +1,6 @@
 """Measuring pipeline: from an observation to the readings of each rock in it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,6 +12,7 @@ from rockshape.measures import Reading
 from rockshape.method import Method, find_method
 from rockshape.observation import Observation, locate_camera
 from rockshape.outline.descriptors import UNRESOLVED, Descriptors, describe_edge, describe_outline
+from rockshape.point_grid.flying import flying_pixels
 from rockshape.rock.blas_threads import one_blas_thread
 from rockshape.rock.instances import Instance, Instances, Window
 from rockshape.rock.point_fit import PointCounts
@@ -71,6 +72,7 @@ class _Scene:
     observation: Observation
     instances: Instances
     frame: Window  # rows and columns in which rocks could be found
+    flying: NDArray[np.bool_] | None  # (rows, cols), points that no rock is measured on
     ground: "Ground | None" = None
     found: "tuple[FoundRock, ...]" = ()
 
@@ -105,7 +107,14 @@ def _scene(
             if find is not None and (ground is None or ground.noise is None):
                 # a finder of another method may have no noise model, which measures can need
                 ground = method.ground(observation)
-    return _Scene(observation, instances, frame, ground, found)
+    return _Scene(observation, instances, frame, _flying(observation), ground, found)
+
+
+def _flying(observation: Observation) -> NDArray[np.bool_] | None:
+    """Flying pixels (rows, cols); None without range in a camera's frame."""
+    if observation.points_m is None or observation.camera is None:
+        return None
+    return flying_pixels(observation.points_m, pixel_rad=1.0 / observation.camera.fx)
 
 
 def _measure_rocks(scene: _Scene, method: Method, *, described: bool) -> tuple[Rock, ...]:
@@ -163,7 +172,11 @@ def _rock(
             whole, fits.ellipse, scene.instances, scene.observation.points_m
         ),
         outline_px=outline_px,
-        points=_counts(view, constrained=any(one.constrained for one in method.measures)),
+        points=_counts(
+            view,
+            flying=_flying_on(scene, part),
+            constrained=any(one.constrained for one in method.measures),
+        ),
         ellipse=fits.ellipse,
         ellipsoid=fits.ellipsoid,
         readings=readings,
@@ -171,11 +184,20 @@ def _rock(
     )
 
 
-def _counts(view: RockView, *, constrained: bool) -> PointCounts:
-    """Range points used; only the constrained ellipsoid's measures leave any out."""
+def _flying_on(scene: _Scene, part: Instance) -> NDArray[np.bool_]:
+    """A rock's pixels (rows, cols) whose point flies."""
+    if scene.flying is None:
+        return np.zeros_like(part.mask)
+    return scene.flying[part.window] & part.mask
+
+
+def _counts(view: RockView, *, flying: NDArray[np.bool_], constrained: bool) -> PointCounts:
+    """Range points used, and those left out before any fit and, of constrained fits, by it."""
     if constrained and len(view.points_m):
-        return view.point_fit.counts(view.mask)
-    return PointCounts(len(view.points_m))
+        counts = view.point_fit.counts(view.mask)
+    else:
+        counts = PointCounts(len(view.points_m))
+    return replace(counts, flying_points=counts.flying_points + int(flying.sum()))
 
 
 def _describe(view: RockView) -> Descriptors:
@@ -190,10 +212,14 @@ def _describe(view: RockView) -> Descriptors:
 def _view_rock(scene: _Scene, part: Instance) -> RockView:
     rows, cols = part.window
     points_m = scene.observation.points_m
+    grid_m = None if points_m is None else points_m[part.window]
+    flying = _flying_on(scene, part)
+    if grid_m is not None and flying.any():
+        grid_m = np.where(flying[..., None], np.nan, grid_m)
     return RockView(
         mask=part.mask,
         corner=(rows.start, cols.start),
-        grid_m=None if points_m is None else points_m[part.window],
+        grid_m=grid_m,
         camera=scene.observation.camera,
         ground=scene.ground,
         frame=scene.frame,

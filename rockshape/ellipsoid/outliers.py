@@ -26,23 +26,24 @@ def fit_without_outliers(
     The points are in the camera frame, the camera at the origin; fit takes which of them to use,
     and the ellipsoid of the round before to start from. A point is an outlier where its radial
     distance is more than six times the robust standard deviation 1.4826 median |e|, or where it
-    lies on the far side. The fit is repeated without outliers until all but a thousandth of the
-    points stay what they are; where more than a tenth would be outliers, no point is one.
+    lies on the far side. The fit is repeated without outliers, once at least where there are any,
+    until all but a thousandth of the points stay what they are; where more than a tenth would be
+    outliers, no point is one.
     """
     every = np.ones(len(points_m), dtype=np.bool_)
     first = found = fit(every, None)
-    sound = every
+    sound, settled = every, 0.0
     for _ in range(MAX_ROUNDS):
         if found is None:
             break
         distance = np.abs(found.ellipsoid.radial_distance_m(points_m))
         now = distance <= CUT * median_scale(distance)
         now &= _facing(found.ellipsoid, points_m) > HIDDEN
-        if (now != sound).mean() <= SAME:
+        if (now != sound).mean() <= settled:
             return found, now
         if now.mean() < 1 - MAX_SHARE:
             return first, every
-        sound = now
+        sound, settled = now, SAME
         found = fit(sound, found.ellipsoid)
     return found, sound
 

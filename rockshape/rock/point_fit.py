@@ -29,7 +29,7 @@ class PointCounts:
     """How many of a rock's range points are used, and why others are left out."""
 
     range_points: int = 0
-    flying_points: int = 0  # outliers within 2 px of the rock's edge: between rock and background
+    flying_points: int = 0  # between rock and background: told so, or outliers within 2 px of edge
     spike_points: int = 0  # other outliers
 
 

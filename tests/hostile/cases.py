@@ -79,8 +79,8 @@ class Case(NamedTuple):
 
 def cases(seed: int = 0, count: int = SIZE) -> Iterator[Case]:
     """So many cases, each kind's share of them."""
-    makers = {"file": _files, "pair": _pairs, "folder": _folders, "content": _contents, "option": _options,
-              "suite": _suites, "spec": _specs, "run": _runs}  # fmt: skip
+    makers = {"file": _files, "pair": _pairs, "folder": _folders, "content": _contents,
+              "option": _options, "suite": _suites, "spec": _specs, "run": _runs}  # fmt: skip
     for index, (kind, share) in enumerate(SHARES.items()):
         rng = np.random.default_rng([seed, index])
         yield from islice(makers[kind](rng), round(share * count))

@@ -57,6 +57,5 @@ def image_of(file: "InputFile") -> tuple[str, Any]:
         values = product[name]
         if isinstance(values, np.ndarray) and values.ndim in (2, 3) and values.dtype.kind in "biuf":
             return name, product
-    raise InputError(
-        f"{file.path}: expected a PDS image, found {', '.join(sorted(names)) or 'nothing'}; a table is none"
-    )
+    found = ", ".join(sorted(names)) or "nothing"
+    raise InputError(f"{file.path}: expected a PDS image, found {found}; a table is none")

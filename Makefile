@@ -17,7 +17,7 @@ baseline: demo
 	cp reports/demo/scores.json reports/demo/results.parquet reports/demo/summary.md reports/baseline
 
 test: .venv/.ready
-	.venv/bin/pytest --numprocesses $(JOBS)
+	.venv/bin/pytest --numprocesses $(JOBS) --dist worksteal
 
 # The whole corpus of malformed inputs; a table of outcomes is printed and written to reports/hostile.
 hostile: .venv/.ready

@@ -33,6 +33,7 @@ with folder_lock(Path(sys.argv[1])):
 def test_the_second_run_is_refused_and_the_first_is_untouched(tmp_path) -> None:
     out, alone = tmp_path / "out", tmp_path / "alone"
     words = "scene --seed 11 --scenes 2 --renderer embree --rocks 2 --camera imp --views 1"
+    words += " --site plain"
     command = [sys.executable, "-m", "rockshape.cli", "synth", *words.split()]
     runs = [
         subprocess.Popen([*command, str(out)], stderr=subprocess.PIPE, text=True) for _ in range(2)

@@ -10,7 +10,7 @@ import pandas as pd
 from scipy import stats
 
 from validation.execution.recorded import Recorded
-from validation.scores.score import Better, Definition, score_rng
+from validation.scores.score import Better, Definition, Weighted, score_rng
 from validation.scores.scoring import definitions
 from validation.statistics.interval import LEVEL, REPLICATES
 
@@ -40,13 +40,20 @@ def compare(old: Recorded, new: Recorded, *, margin: float = MARGIN) -> tuple[Ch
     """What became of each score, in the order of the old run, then the new ones.
 
     A score is worse when the interval of its difference lies on the wrong side of 0 and the
-    difference is greater than `margin`, or when it has no value any more.
+    difference is greater than `margin`, or when it has no value any more. The intervals hold for
+    all scores together at 95 % (Bonferroni); the standard error is that of a bootstrap over rocks,
+    or of a jackknife over scenes where a score has no weights.
     """
     before = {definition.name: definition for definition in definitions(old.suite)}
     after = {definition.name: definition for definition in definitions(new.suite)}
     changes = [
         _change(
-            definition, after.get(name), old.records, new.records, scores=len(before), margin=margin
+            definition,
+            after.get(name),
+            old.records,
+            new.records,
+            scores=len(before),
+            margin=margin,
         )
         for name, definition in before.items()
     ]
@@ -76,17 +83,24 @@ def _change(
 ) -> Change:
     if after is None:
         return _lone(definition, old, "gone")
-    before_value, after_value = definition.compute(old).value, after.compute(new).value
-    low, high = _interval(definition, old, new, scores=scores)
+    before, later = definition.compute(old), after.compute(new)
+    tail = (1.0 - LEVEL) / 2.0 / scores  # Bonferroni
+    if before.weighted is None or later.weighted is None or before.rocks != later.rocks:
+        spread, quantile = _jackknife(definition, old, new, tail=tail)
+    else:
+        spread = _bootstrap(before.weighted, later.weighted, before.rocks, definition.name)
+        quantile = float(stats.norm.isf(tail))
+    centre, reach = later.value - before.value, quantile * spread
+    low, high = centre - reach, centre + reach
     return Change(
         name=definition.name,
         title=definition.title,
         unit=definition.unit,
-        old=before_value,
-        new=after_value,
+        old=before.value,
+        new=later.value,
         low=low,
         high=high,
-        verdict=_verdict(definition.better, before_value, after_value, low, high, margin=margin),
+        verdict=_verdict(definition.better, before.value, later.value, low, high, margin=margin),
     )
 
 
@@ -105,36 +119,23 @@ def _verdict(
     return "better" if (new > old) == (better == "higher") else "worse"
 
 
-def _interval(
-    definition: Definition, old: pd.DataFrame, new: pd.DataFrame, *, scores: int
-) -> tuple[float, float]:
-    """Interval of new − old that holds for all scores together at 95 % (Bonferroni).
-
-    The standard error is that of a bootstrap over rocks, the same draws for both runs; where a
-    score has no weights, that of leaving out groups of scenes in turn (Tukey 1958), NaN under
-    three.
-    """
-    before, after = definition.compute(old), definition.compute(new)
-    tail = (1.0 - LEVEL) / 2.0 / scores
-    if before.weighted is None or after.weighted is None or before.rocks != after.rocks:
-        spread, quantile = _jackknife(definition, old, new, tail=tail)
-    else:
-        draws = score_rng(definition.name).multinomial(
-            before.rocks, np.full(before.rocks, 1.0 / before.rocks), size=REPLICATES
-        )
-        weights = draws.astype(np.float64)
-        found = np.array([after.weighted(w) - before.weighted(w) for w in weights])
-        found = found[np.isfinite(found)]
-        spread = float(found.std(ddof=1)) if found.size >= REPLICATES / 2 else math.nan
-        quantile = float(stats.norm.isf(tail))
-    centre, reach = after.value - before.value, quantile * spread
-    return centre - reach, centre + reach
+def _bootstrap(before: Weighted, after: Weighted, rocks: int, name: str) -> float:
+    """Standard error of after − before by a bootstrap over rocks, the same draws for both."""
+    draws = score_rng(name).multinomial(rocks, np.full(rocks, 1.0 / rocks), size=REPLICATES)
+    found = np.array([after(w) - before(w) for w in draws.astype(np.float64)])
+    found = found[np.isfinite(found)]
+    return float(found.std(ddof=1)) if found.size >= REPLICATES / 2 else math.nan
 
 
 def _jackknife(
     definition: Definition, old: pd.DataFrame, new: pd.DataFrame, *, tail: float
 ) -> tuple[float, float]:
-    """Standard error of new − old by leaving out scenes, and its quantile of t."""
+    """Standard error of new − old by leaving out groups of scenes in turn, and its quantile of t.
+
+    NaN under three groups.
+
+    Source: Tukey 1958.
+    """
     found = np.array([after - before for before, after in _left_out(definition, old, new)])
     found = found[np.isfinite(found)]
     groups = found.size

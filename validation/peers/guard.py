@@ -2,9 +2,10 @@
 
 Run as a script with the number of a file descriptor, the lifeline, and a command. The guard ends
 with the command's exit status, 128 + N for signal N and 127 for no such program. When the lifeline
-is closed at its other end, which the death of the run does too, the guard kills the command. In
-either case it kills all descendants of the command, also those that left its session: on Linux they
-become children of the guard (PR_SET_CHILD_SUBREAPER).
+is closed at its other end, which the death of the run does too, or the guard is told to end by
+SIGHUP, SIGINT or SIGTERM, the guard kills the command. In any case it kills all descendants of the
+command, also those that left its session: on Linux they become children of the guard
+(PR_SET_CHILD_SUBREAPER).
 """
 
 import ctypes
@@ -20,6 +21,7 @@ from pathlib import Path
 PR_SET_CHILD_SUBREAPER = 36
 NO_SUCH_PROGRAM = 127
 SIGNAL_BASE = 128
+_ENDING = (signal.SIGHUP, signal.SIGINT, signal.SIGTERM)
 _PAUSE_S = 0.005
 
 
@@ -28,7 +30,8 @@ def guard(lifeline: int, argv: list[str]) -> int:
     os.set_inheritable(lifeline, False)
     woken, wakes = os.pipe()
     os.set_blocking(wakes, False)
-    signal.signal(signal.SIGCHLD, lambda *_: None)
+    for number in (signal.SIGCHLD, *_ENDING):
+        signal.signal(number, lambda *_: None)
     signal.set_wakeup_fd(wakes, warn_on_full_buffer=False)
     with suppress(OSError, AttributeError):
         ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
@@ -49,7 +52,7 @@ def guard(lifeline: int, argv: list[str]) -> int:
 
 
 def _wait(child: int, lifeline: int, woken: int) -> int:
-    """Exit status of the child; 128 + SIGKILL where the lifeline closes first."""
+    """Exit status of the child; 128 + N where signal N or, as SIGKILL, the lifeline ends it."""
     while True:
         ended, status = os.waitpid(child, os.WNOHANG)
         if ended:
@@ -58,7 +61,9 @@ def _wait(child: int, lifeline: int, woken: int) -> int:
         ready, _, _ = select.select([lifeline, woken], [], [])
         if lifeline in ready:
             return SIGNAL_BASE + signal.SIGKILL
-        os.read(woken, 4096)
+        for number in os.read(woken, 4096):
+            if number in _ENDING:
+                return SIGNAL_BASE + number
 
 
 def _kill_descendants(group: int) -> None:

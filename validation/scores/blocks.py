@@ -1,7 +1,10 @@
 """Records as blocks (views, rocks) of one measure, one block a scene."""
 
+from typing import Any
+
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from validation.scores.expectations import Claim
 from validation.statistics import Block
@@ -14,18 +17,23 @@ def blocks_of(records: pd.DataFrame, claim: Claim) -> tuple[Block, ...]:
     whose measure is NaN, is NaN. Rocks without the truth in question are left out. The truth is
     (rocks,), or (views, rocks) for a claim on what each view shows.
     """
-    own = records[
-        (records["experiment"] == claim.experiment)
-        & (records["series"] == claim.series)
-        & (records["method"] == claim.method)
-    ]
-    rows = own[own["status"] != "extra"].sort_values("scene", kind="stable")
-    scene, view, instance = (
-        rows[name].to_numpy(dtype=np.int64) for name in ("scene", "view", "instance")
+
+    def column(name: str) -> NDArray[Any]:
+        return records[name].to_numpy()
+
+    own = np.flatnonzero(
+        (column("experiment") == claim.experiment)
+        & (column("series") == claim.series)
+        & (column("method") == claim.method)
+        & (column("status") != "extra")
     )
-    measured = rows[claim.measure].to_numpy(dtype=np.float64)
-    value = np.where(rows["eligible"].to_numpy(dtype=bool), measured, np.nan)
-    truth = rows[claim.truth].to_numpy(dtype=np.float64)
+    own = own[np.argsort(column("scene")[own], kind="stable")]
+    scene, view, instance = (
+        column(name)[own].astype(np.int64) for name in ("scene", "view", "instance")
+    )
+    measured = column(claim.measure)[own].astype(np.float64)
+    value = np.where(column("eligible")[own].astype(bool), measured, np.nan)
+    truth = column(claim.truth)[own].astype(np.float64)
     starts = np.flatnonzero(np.diff(scene, prepend=-1))
     blocks = []
     for part in np.split(np.arange(scene.size), starts[1:]) if scene.size else ():

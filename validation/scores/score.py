@@ -17,6 +17,7 @@ BOOTSTRAP_SEED = 20020309
 VIEW_PREFIX = "view_"  # of statistics against what a view truly shows
 
 Better = Literal["higher", "lower", "neither"]
+Weighted = Callable[[NDArray[np.float64]], float]  # the value of weighted rocks
 
 
 @dataclass(frozen=True)
@@ -68,7 +69,7 @@ class Estimate:
     value: float
     count: int
     rocks: int = 0
-    weighted: Callable[[NDArray[np.float64]], float] | None = None  # the value of weighted rocks
+    weighted: Weighted | None = None
     interval: tuple[float, float] | None = None
     p_value: Callable[[], float] | None = None
 

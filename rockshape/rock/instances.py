@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.errors import InputError
+from rockshape.numerics.strips import by_strips
 
 MAX_LABEL = 2**31 - 1  # of a label image
 MAX_ID = 2**63 - 1  # of a rock: what a table of whole numbers holds
@@ -133,12 +134,16 @@ def _largest_part(instance: Instance) -> Instance:
     )
 
 
+def _changes(labels: NDArray[np.integer]) -> NDArray[np.bool_]:
+    """Between which neighbours in a row the number changes, (rows, cols + 1); beyond it is 0."""
+    bordered = np.pad(labels, ((0, 0), (1, 1)))
+    return np.asarray(bordered[:, 1:] != bordered[:, :-1])
+
+
 def _windows(labels: NDArray[np.integer]) -> list[tuple[int, Window]]:
     """Each number but 0 and the box of its pixels, from the runs of equal pixels in each row."""
-    rows, cols = labels.shape
-    bordered = np.zeros((rows, cols + 2), dtype=labels.dtype)
-    bordered[:, 1:-1] = labels
-    row, start = np.nonzero(bordered[:, 1:] != bordered[:, :-1])
+    cols = labels.shape[1]
+    row, start = np.nonzero(by_strips(_changes, labels))
     value = labels[row, np.minimum(start, cols - 1)]
     # a run ends where the next change is, in the same row: the border of each is 0
     rock = np.flatnonzero((start < cols) & (value != 0))

@@ -30,10 +30,10 @@ def segment_both(observation: Observation) -> Segmentation:
     signal = heights_over(observation, ground)
     by_range = _by_range(observation, ground, signal)
     labels = find_by_image(observation.image, signal, by_range)
-    outlines, moved = _at_edges(observation, labels, signal, ground)
+    outlines, labels = _at_edges(observation, labels, signal, ground)
     return _result(
         observation,
-        moved,
+        labels,
         ground=ground,
         signal=signal,
         outlines=outlines,
@@ -66,8 +66,8 @@ def segment_by_image(observation: Observation) -> Segmentation:
     ground = ground_among_rocks(observation)
     nothing = np.zeros(observation.image.shape, dtype=np.int32)
     labels = find_by_image(observation.image, None, nothing)
-    outlines, moved = _at_edges(observation, labels, None, None)
-    return _result(observation, moved, ground=ground, signal=None, outlines=outlines, from_range=0)
+    outlines, labels = _at_edges(observation, labels, None, None)
+    return _result(observation, labels, ground=ground, signal=None, outlines=outlines, from_range=0)
 
 
 def ground_among_rocks(observation: Observation) -> Ground | None:

@@ -10,6 +10,7 @@ from rockshape.segmentation.by_image.proposal_score import features_of, likeliho
 from rockshape.segmentation.by_image.proposal_seeds import MIN_PIXELS
 from rockshape.segmentation.by_image.star_proposals import propose
 from rockshape.segmentation.by_range.height_signal import HeightSignal
+from rockshape.segmentation.relabel import label_areas
 
 GOOD_ENOUGH = 0.4
 MAX_SHARED = 0.25  # of an outline may be another's already
@@ -28,13 +29,16 @@ def find_by_image(
     already or it swallows another. Where range is good enough to show a rock of that width and is
     flat, there is none.
     """
+    parts = [
+        (part.x, part.y, features_of(part))
+        for part in propose(read_lightness(image), taken=by_range)
+    ]
     labels = by_range.copy()
-    parts = propose(read_lightness(image), taken=by_range > 0)
     if not parts:
         return labels
-    x, y = (np.concatenate([getattr(part, axis) for part in parts]) for axis in ("x", "y"))
-    value = likelihood(np.concatenate([features_of(part) for part in parts]))
-    area = np.bincount(labels.ravel()).astype(np.int64).tolist()
+    x, y, features = (np.concatenate(each) for each in zip(*parts, strict=True))
+    value = likelihood(features)
+    area = label_areas(labels).tolist()
     for number in np.argsort(-value, kind="stable"):
         if value[number] < GOOD_ENOUGH:
             break

@@ -1,5 +1,6 @@
 """Outlines proposed from the image: star-shaped, each the cheapest closed path round a seed."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,7 +8,7 @@ import scipy.ndimage as ndi
 from numpy.typing import NDArray
 
 from rockshape.numerics.arrays import Floats, Mask
-from rockshape.segmentation.by_image.ground_appearance import DARK, Lightness
+from rockshape.segmentation.by_image.ground_appearance import CAST, GROUND, SHADED, Lightness
 from rockshape.segmentation.by_image.proposal_seeds import find_seeds
 from rockshape.segmentation.edges.shortest_path import closed_paths
 
@@ -50,8 +51,8 @@ class Stars:
     polar: Polar
 
 
-def propose(lightness: Lightness, *, taken: Mask) -> list[Stars]:
-    """Outlines round all seeds whose middle is not taken (rows, cols), in parts.
+def propose(lightness: Lightness, *, taken: NDArray[np.generic]) -> Iterator[Stars]:
+    """Outlines round all seeds whose middle is not taken (rows, cols), in parts; 0 is not.
 
     In polar coordinates about a seed the path minimises, over its inside, the price of pixels that
     look like ground or cast shadow, over its outside the price of the seed's own, less the strength
@@ -59,7 +60,8 @@ def propose(lightness: Lightness, *, taken: Mask) -> list[Stars]:
     count more and what is left outside less.
     """
     seeds = find_seeds(lightness, taken=taken)
-    return [_trace(lightness, seeds[i : i + AT_ONCE]) for i in range(0, len(seeds), AT_ONCE)]
+    for first in range(0, len(seeds), AT_ONCE):
+        yield _trace(lightness, seeds[first : first + AT_ONCE])
 
 
 def _trace(lightness: Lightness, seeds: Floats) -> Stars:
@@ -110,15 +112,15 @@ def _unroll(lightness: Lightness, seeds: Floats, turns: Floats) -> Polar:
     light = light / lightness.texture.ravel()[place[:, :, :1]]
     edge = np.zeros(x.shape)
     edge[..., 1:-1] = np.abs(light[..., 2:] - light[..., :-2]) / step[:, None, None]
-    unlike, cast = lightness.unlike.ravel()[place], lightness.cast.ravel()[place]
+    kinds = lightness.kinds.ravel()[place]
     return Polar(
         radius=radius,
         step=step,
         area=(radius * step[:, None] * 2 * np.pi / RAYS)[:, None],
         edge=edge,
-        unlike=unlike,
-        cast=cast,
-        shaded=unlike & ~cast & (lightness.ratio.ravel()[place] < DARK),
+        unlike=kinds != GROUND,
+        cast=kinds == CAST,
+        shaded=kinds == SHADED,
         inside=inside,
         facet=seeds[:, 3] > 0,
     )

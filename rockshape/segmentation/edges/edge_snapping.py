@@ -18,7 +18,9 @@ from rockshape.numerics.robust_scale import MEDIAN_TO_SIGMA
 from rockshape.outline.polygon_fill import inside_of
 from rockshape.outline.resample import outline_length, smooth_evenly
 from rockshape.outline.trace import signed_area
+from rockshape.segmentation.brightness import blurred_light
 from rockshape.segmentation.edges.shortest_path import closed_paths
+from rockshape.segmentation.relabel import relabelled
 
 REACH_PX = 6.0  # how far an edge may lie from the outline
 LANE_PX = 0.5
@@ -64,7 +66,7 @@ def snap(
     up to 12; a first run without the distances gives their middle and spread. Empty where these
     show that the outlines are on the image's edges already.
     """
-    light = _light(image)
+    light = blurred_light(image, BLUR_PX)
     smooth_px = max(ROUND_PX, float(window_px))
     tried = [
         _ring(light, mask, number, texture=texture, smooth_px=smooth_px)
@@ -90,12 +92,6 @@ def snap(
         ring.number: _outline(ring, cost, path, lanes)
         for ring, cost, path in zip(rings, costs, paths, strict=True)
     }
-
-
-def _light(image: Singles) -> Singles:
-    """Logarithm of the brightness, slightly blurred."""
-    blurred = cv2.GaussianBlur(np.log(np.maximum(image, np.float32(1 / 255))), (0, 0), BLUR_PX)
-    return np.asarray(blurred, dtype=np.float32)
 
 
 def _lanes() -> Singles:
@@ -195,8 +191,9 @@ def paint(
 
     Numbers without an outline keep their pixels.
     """
-    moved = np.array(list(outlines), dtype=labels.dtype)
-    painted = np.where(np.isin(labels, moved), 0, labels)
+    kept = np.arange(int(labels.max(initial=0)) + 1, dtype=labels.dtype)
+    kept[list(outlines)] = 0
+    painted = relabelled(labels, kept)
     for number in order:
         if number in outlines:
             x, y = outlines[number].points_px.T

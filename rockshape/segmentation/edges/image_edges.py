@@ -5,6 +5,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.numerics.robust_scale import MEDIAN_TO_SIGMA
+from rockshape.segmentation.brightness import blurred_light
 from rockshape.segmentation.by_range.height_signal import HeightSignal
 from rockshape.segmentation.edges.edge_snapping import BLUR_PX, SnappedOutline, paint, snap
 
@@ -13,8 +14,8 @@ MIN_TEXTURE = 1e-3
 
 def texture_of(image: NDArray[np.float32]) -> float:
     """Scatter of the slope of the image's logarithm, 1/px: the texture of most of the frame."""
-    light = cv2.GaussianBlur(np.log(np.maximum(image, np.float32(1 / 255))), (0, 0), BLUR_PX)
-    slope = np.abs(cv2.Sobel(light, cv2.CV_32F, 1, 0, scale=0.125)[::2, ::2])
+    slope = cv2.Sobel(blurred_light(image, BLUR_PX), cv2.CV_32F, 1, 0, scale=0.125)
+    slope = np.abs(slope[::2, ::2])
     return max(MIN_TEXTURE, MEDIAN_TO_SIGMA * float(np.median(slope)))
 
 

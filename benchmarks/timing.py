@@ -42,6 +42,15 @@ def timed(call: Callable[[], object]) -> Timing:
     return Timing(time.process_time() - cpu, time.perf_counter() - wall)
 
 
+def timed_with_children(call: Callable[[], object]) -> Timing:
+    """Return the time of one call, that of processes which end within it included."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    own = timed(call)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    children_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return Timing(own.cpu_s + children_s, own.wall_s)
+
+
 def best_of(rounds: int, works: Mapping[str, Callable[[], object]]) -> dict[str, Timing]:
     """Return the least time of each work, taken in turns after one round to warm up."""
     best = dict.fromkeys(works, NEVER)

@@ -5,7 +5,7 @@ from tempfile import TemporaryDirectory
 
 from case import Case, Cell, Column, Table
 from cases.rendering_cost import field_spec
-from timing import in_fresh_process, memory_mb, timed
+from timing import in_fresh_process, memory_mb, timed, timed_with_children
 
 from synth.dataset.write import capture_frame, write_scene
 from synth.light import spec_stage
@@ -22,6 +22,8 @@ def large_frame(*, rocks: int = 100, preset: str = "m2020-navcam") -> list[Table
         Column("view", "s"),
         Column("all with files", "s"),
         Column("masks and tables, a rock", "s", ".2f"),
+        Column("all with two jobs", "s"),
+        Column("wall", "s"),
         Column("peak memory", "MB", ",.0f"),
     )
     return [Table(columns, [in_fresh_process(_large_frame, rocks, preset)])]
@@ -32,6 +34,8 @@ def _large_frame(rocks: int, preset: str) -> tuple[Cell, ...]:
     with TemporaryDirectory() as folder:
         whole_s = timed(lambda: write_scene(spec, 0, backend, Path(folder))).cpu_s
     peak_mb = memory_mb(peak=True)
+    with TemporaryDirectory() as folder:
+        shared = timed_with_children(lambda: write_scene(spec, 0, backend, Path(folder), jobs=2))
     made: list[SceneModel] = []
     build_s = timed(lambda: made.append(build_scene(spec, 0))).cpu_s
     (scene,) = made
@@ -44,7 +48,7 @@ def _large_frame(rocks: int, preset: str) -> tuple[Cell, ...]:
     view_s, count = timed(view).cpu_s, len(scene.rocks)
     rest_s = max(whole_s - build_s - view_s, 0.0) / count
     shape = f"{scene.camera.width}×{scene.camera.height}"
-    return shape, count, build_s, view_s, whole_s, rest_s, peak_mb
+    return shape, count, build_s, view_s, whole_s, rest_s, shared.cpu_s, shared.wall_s, peak_mb
 
 
 LARGE_FRAME_CASE = Case(

@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 from bare import BareRenderer
 from case import Case, Cell, Column, Table
-from timing import in_fresh_process, memory_mb, timed
+from timing import in_fresh_process, memory_mb, timed, timed_with_children
 
 from synth.camera.camera import Pose
+from synth.dataset.workers import worker_pool
 from synth.dataset.write import write_scene
 from synth.light import light_scene
 from synth.render import choose_backend, open_renderer, render_view
@@ -104,6 +105,8 @@ def field(*, rocks: int = 500, preset: str = "mer-navcam") -> list[Table]:
         Column("rocks", "", "d"),
         Column("facets", "", ",d"),
         Column("rocks and their places", "s"),
+        Column("by two processes more", "s"),
+        Column("wall", "s"),
         Column("light", "s"),
         Column("further view", "s"),
         Column("its geometry alone", "s"),
@@ -121,6 +124,12 @@ def _field(rocks: int, preset: str) -> tuple[float, ...]:
 
     build = timed(lambda: keep("scene", build_scene(spec, 0)))
     scene = made["scene"]
+
+    def build_by_processes() -> None:
+        with worker_pool(2) as pool:
+            build_scene(spec, 0, pool=pool)
+
+    shared = timed_with_children(build_by_processes)
     light = timed(lambda: keep("stage", light_scene(scene, spec.sun, spec.surface)))
     stage = made["stage"]
     renderer = open_renderer(backend, stage, scene.camera)
@@ -135,7 +144,10 @@ def _field(rocks: int, preset: str) -> tuple[float, ...]:
     return (
         len(scene.rocks),
         sum(len(rock.mesh.faces) for rock in scene.rocks),
-        *(one.cpu_s for one in (build, light, view, geometry)),
+        build.cpu_s,
+        shared.cpu_s,
+        shared.wall_s,
+        *(one.cpu_s for one in (light, view, geometry)),
         memory_mb(peak=True),
     )
 

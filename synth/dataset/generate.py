@@ -35,7 +35,8 @@ def generate_dataset(
     `backend` takes the place of the spec's renderer, whose name the manifest keeps.
 
     The same spec gives the same bytes, whatever the number of processes and however often the run
-    was interrupted. Rendering takes place in fresh processes, one scene at a time in each. Scenes
+    was interrupted. Rendering takes place in fresh processes, one scene at a time in each; where
+    there are more jobs than scenes, the others make rocks. Scenes
     of a finished dataset that have lost a file are made again. A run that fails before any scene
     is whole leaves nothing behind.
 
@@ -78,7 +79,8 @@ def _generate(
         bar = ProgressBar(spec.scenes, len(missing), show=show_progress)
         with worker_pool(min(jobs, max(len(missing), 1)), reports=bar.reports) as pool:
             try:
-                for name in _rendered(pool, spec, missing, backend, out):
+                within = max(1, jobs // max(len(missing), 1))
+                for name in _rendered(pool, spec, missing, backend, out, jobs=within):
                     bar.advance(name)
             except SpecError:
                 if fresh and not bar.advanced:
@@ -172,10 +174,19 @@ def _begin(spec: SceneSpec, backend: RendererName, out: Path) -> None:
 
 
 def _rendered(
-    pool: Executor, spec: SceneSpec, indices: Sequence[int], backend: RendererName, out: Path
+    pool: Executor,
+    spec: SceneSpec,
+    indices: Sequence[int],
+    backend: RendererName,
+    out: Path,
+    *,
+    jobs: int,
 ) -> Iterator[str]:
-    """Write scenes and yield their names; the first failure stops those not begun and is raised."""
-    futures = [pool.submit(write_scene, spec, index, backend, out) for index in indices]
+    """Write scenes and yield their names; the first failure stops those not begun and is raised.
+
+    `jobs` is the number of processes that make one scene's rocks.
+    """
+    futures = [pool.submit(write_scene, spec, index, backend, out, jobs=jobs) for index in indices]
     try:
         for future in as_completed(futures):
             yield future.result()

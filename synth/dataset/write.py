@@ -2,7 +2,8 @@
 
 import os
 import shutil
-from concurrent.futures import Executor
+from concurrent.futures import Executor, ThreadPoolExecutor
+from contextlib import nullcontext
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -42,7 +43,7 @@ from synth.dataset.range_files import RANGE_FOLDER, hole_table, hole_value, writ
 from synth.dataset.shape_truth import scene_gt_shape
 from synth.dataset.splits import write_splits
 from synth.dataset.surroundings import light_table, things_table
-from synth.dataset.workers import begin_scene
+from synth.dataset.workers import begin_scene, worker_pool
 from synth.light import Stage, spec_stage
 from synth.light.drawn_sun import drawn_sun
 from synth.progress import counted
@@ -59,16 +60,20 @@ _DISTRIBUTIONS = ("rockshape", "numpy", "scipy", "trimesh", "opencv-python-headl
 _BACKEND_DISTRIBUTION = {"osmesa": "arcade-pyrender", "egl": "arcade-pyrender", "embree": "embreex"}
 
 
-def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -> str:
+def write_scene(
+    spec: SceneSpec, index: int, backend: RendererName, out: Path, *, jobs: int = 1
+) -> str:
     """Scene built, rendered and written into a dataset's folder; its folder's name.
 
-    This is the unit of work: it needs nothing but its arguments and may run in any process. The
-    scene is written apart, in a folder of this process's own, and renamed into place when whole,
-    after its models: a process that outlives its run disturbs no other.
+    With several jobs so many further processes make rocks, and so many threads write masks. This
+    is the unit of work: it needs nothing but its arguments and may run in any process. The scene is
+    written apart, in a folder of this process's own, and renamed into place when whole, after its
+    models: a process that outlives its run disturbs no other.
     """
     sensor = sensor_of(spec)
     begin_scene(scene_number(index))
-    scene = build_scene(spec, index)
+    with worker_pool(jobs) if jobs > 1 else nullcontext() as pool:
+        scene = build_scene(spec, index, pool=pool)
     stage = spec_stage(spec, index, scene)
     renderer = open_renderer(backend, stage, scene.camera)
     scale_mm = depth_scale_mm(spec)
@@ -95,7 +100,7 @@ def write_scene(spec: SceneSpec, index: int, backend: RendererName, out: Path) -
         if view.normals is not None:
             normals = encode_normals(view.normals)
             write_rgb_png(folder / "normals" / f"{number:06d}.png", normals)
-        _write_masks(folder, number, view)
+        _write_masks(folder, number, view, jobs)
         views.append(view.sight())
         valid.append(depth > 0)
     first_id = first_object_id(spec, index)
@@ -231,13 +236,21 @@ def _write_pictures(folder: Path, number: int, capture: Capture, depth: NDArray[
         write_png(folder / own / name, picture)
 
 
-def _write_masks(folder: Path, number: int, view: Sight) -> None:
+def _write_masks(folder: Path, number: int, view: Sight, jobs: int) -> None:
     stem = f"{number:06d}"
     write_png(folder / "labels" / f"{stem}.png", view.labels)
-    for instance in counted(range(len(view.silhouettes)), "rocks' masks"):
+
+    def write(instance: int) -> None:
         name = f"{stem}_{instance:06d}.png"
         write_png(folder / "mask" / name, _white(view.silhouettes.cutout(instance)))
         write_png(folder / "mask_visib" / name, _white(view.visible(instance)))
+
+    instances = range(len(view.silhouettes))
+    with ThreadPoolExecutor(jobs) as threads:
+        for _ in zip(
+            counted(instances, "rocks' masks"), threads.map(write, instances), strict=True
+        ):
+            pass
 
 
 def _white(cutout: Cutout) -> NDArray[np.uint8]:

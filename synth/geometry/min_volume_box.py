@@ -18,6 +18,7 @@ _COARSE = 300  # directions whose farthest points stand for all in the first tri
 _FIRST_REACH_RAD, _HALVINGS = 0.03, 21  # down to 1.4e-8 rad
 _GRID = np.stack(np.meshgrid(*[[-1.0, 0.0, 1.0]] * 3), axis=-1).reshape(-1, 3)
 _DIRECTIONS = np.array([turn / np.linalg.norm(turn) for turn in _GRID if turn.any()])  # (26, 3)
+_FEW, _AT_ONCE = 64, 80  # points of which none is left out; points times lengths tried at once
 _REACHES_RAD = _FIRST_REACH_RAD / 2.0 ** np.arange(_HALVINGS + 1)
 _TURNED = np.stack(
     [Rotation.from_rotvec(reach * _DIRECTIONS).as_matrix() for reach in _REACHES_RAD]
@@ -121,26 +122,43 @@ def _refined(
     A search that cannot be expected to come below `least` any more is broken off.
 
     The volume has creases, so no gradient is used: turns of one length about 26 directions are
-    tried at once, the best is taken, and the length is halved when none is better. A turn by ε
-    moves a point by no more than ε times its distance from the middle, so points farther than
-    that inside the six sides are left out.
+    tried at once, the best is taken, and the length is halved when none is better. Of few points
+    the next lengths are tried along with it.
     """
     arms_m = points_m - points_m.mean(axis=0)
     reach_m = float(np.sqrt((arms_m**2).sum(axis=1).max()))
-    along = axes @ arms_m.T
-    volume = float(np.prod(np.ptp(along, axis=1) + 2.0 * margin_m))
+    volume = float(np.prod(np.ptp(axes @ arms_m.T, axis=1) + 2.0 * margin_m))
     level = 0
-    while level <= _HALVINGS and volume <= least * (1.0 + _HOPE * _REACHES_RAD[level]):
-        slack_m = 2.0 * _REACHES_RAD[level] * reach_m
-        outer = (along >= along.max(axis=1, keepdims=True) - slack_m).any(axis=0)
-        outer |= (along <= along.min(axis=1, keepdims=True) + slack_m).any(axis=0)
-        turned = _TURNED[level] @ axes
-        trial = turned @ arms_m[outer].T
-        volumes = (trial.max(axis=2) - trial.min(axis=2) + 2.0 * margin_m).prod(axis=1)
-        best = int(np.argmin(volumes))
-        if volumes[best] < volume:
-            volume, axes = float(volumes[best]), turned[best]
-            along = axes @ arms_m.T
-        else:
+    while level <= _HALVINGS and _hopeful(volume, least, level):
+        outer_m = _outer_m(arms_m, axes, 2.0 * _REACHES_RAD[level] * reach_m)
+        turned = _TURNED[level : level + max(1, _AT_ONCE // len(outer_m))] @ axes
+        trial = outer_m @ turned.reshape(-1, 3).T  # (points, lengths × 26 × 3)
+        sides_m = trial.max(axis=0) - trial.min(axis=0) + 2.0 * margin_m
+        volumes = sides_m.reshape(-1, 26, 3).prod(axis=2)
+        for tried, best in zip(volumes, volumes.argmin(axis=1), strict=True):
+            if tried[best] < volume:
+                volume, axes = float(tried[best]), _TURNED[level, best] @ axes
+                break
             level += 1
+            if level > _HALVINGS or not _hopeful(volume, least, level):
+                break
     return volume, axes
+
+
+def _hopeful(volume: float, least: float, level: int) -> bool:
+    """Whether turns of this length may bring a volume below another."""
+    return bool(volume <= least * (1.0 + _HOPE * _REACHES_RAD[level]))
+
+
+def _outer_m(arms_m: Floats, axes: Floats, slack_m: float) -> Floats:
+    """Points, out of (n, 3), that may touch a box when it is turned a little; few points are kept.
+
+    A turn by ε moves a point by no more than ε times its distance from the middle, so points
+    farther than that inside the six sides are left out.
+    """
+    if len(arms_m) <= _FEW:
+        return arms_m
+    along = axes @ arms_m.T
+    outer = (along >= along.max(axis=1, keepdims=True) - slack_m).any(axis=0)
+    outer |= (along <= along.min(axis=1, keepdims=True) + slack_m).any(axis=0)
+    return np.asarray(arms_m[outer])

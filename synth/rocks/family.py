@@ -13,6 +13,8 @@ from synth.rocks.record import RockModel
 from synth.spec.registry import options_of
 from synth.spec.rocks import FAMILIES, RocksSpec
 
+Make = Callable[[], RockModel]
+Plan = Callable[[RocksSpec, Floats, np.random.Generator], Make]
 Draw = Callable[[RocksSpec, Floats, np.random.Generator], RockModel]
 Grade = Callable[[RocksSpec, Sequence[tuple[Floats, float]], np.random.Generator], list[RockModel]]
 
@@ -22,14 +24,17 @@ class Family:
     """Rock family.
 
     `draw` returns one rock from the spec, the half-axes (3,) wanted, a >= b >= c in metres, and
-    random numbers. `grade` returns one form in several pairs of half-axes and rounding (edge
-    radius over inradius), in their order: the series `graded` and `sphericity` need it.
-    A family with `members` has neither: its rocks are of its members in turn.
+    random numbers. `plan`, in place of it, draws all random numbers and returns what makes the rock
+    without any: it is pickled, so that another process may call it. `grade` returns one form in
+    several pairs of half-axes and rounding (edge radius over inradius), in their order: the series
+    `graded` and `sphericity` need it.
+    A family with `members` has none of them: its rocks are of its members in turn.
     """
 
     name: str
     title: str  # one line, for lists
     draw: Draw | None = None
+    plan: Plan | None = None
     grade: Grade | None = None
     members: tuple[str, ...] = ()
     truth: Literal["exact", "mesh"] = "mesh"  # closed forms; or the mesh is the body

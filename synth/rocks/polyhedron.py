@@ -1,5 +1,6 @@
 """Convex polyhedra as intersections of half-spaces, with their exact V, S and M."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -136,8 +137,8 @@ def inradius_m(polyhedron: Polyhedron) -> float:
 def angle_rad(first: Floats, second: Floats) -> float:
     """Angle between two unit vectors, accurate when it is small."""
     (a, b, c), (x, y, z) = first.tolist(), second.tolist()
-    sine = np.linalg.norm(np.array([b * z - c * y, c * x - a * z, a * y - b * x]))
-    return float(np.arctan2(sine, first @ second))
+    across = np.array([b * z - c * y, c * x - a * z, a * y - b * x])
+    return float(np.arctan2(math.sqrt(across @ across), first @ second))
 
 
 def _surround_origin(normals: Floats) -> bool:

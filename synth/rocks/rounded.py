@@ -62,7 +62,11 @@ def rounded_polyhedron(
     polyhedron: Polyhedron, half_axes_m: Floats, *, rounding: float
 ) -> RockModel:
     """Rock P' ⊕ B_r with the given half-axes; see `hold_axes`, which may raise."""
-    body, radius_m = hold_axes(polyhedron, half_axes_m, rounding=rounding)
+    return held_rock(*hold_axes(polyhedron, half_axes_m, rounding=rounding), rounding)
+
+
+def held_rock(body: Polyhedron, radius_m: float, rounding: float) -> RockModel:
+    """Rock P' ⊕ B_r of a polyhedron and a radius that hold its half-axes."""
     box_m = smallest_box(body.vertices_m, margin_m=radius_m).half_sides_m
     knobs = {"cuts": float(len(body.loops)), "rounding": rounding}
     return _rock("rounded-polyhedron", body, radius_m, box_m, knobs)

@@ -36,8 +36,7 @@ def rounded_mesh(polyhedron: Polyhedron, radius_m: float, *, split: int = 1) -> 
         builder.add_face(face, loop)
     for v, w, f, g in polyhedron.edges():
         builder.add_strip(v, w, f, g)
-    for vertex in range(len(polyhedron.vertices_m)):
-        builder.add_patch(vertex)
+    builder.add_patches()
     return builder.mesh()
 
 
@@ -68,12 +67,24 @@ class _Builder:
         self._faces.append(np.column_stack([at_w[:-1], at_v[:-1], at_v[1:]]))
         self._faces.append(np.column_stack([at_w[:-1], at_v[1:], at_w[1:]]))
 
-    def add_patch(self, vertex: int) -> None:
-        """Add a vertex's spherical polygon: rings that shrink to its middle."""
-        faces = self._faces_round(vertex)
-        turns = zip(faces, (*faces[1:], faces[0]), strict=True)
-        loop = np.concatenate([self._arc(vertex, f, g)[:-1] for f, g in turns])
-        rim = np.concatenate(self._normals)[loop]
+    def add_patches(self) -> None:
+        """Add each vertex's spherical polygon, after the strips, which its rim runs along."""
+        rounds = [self._faces_round(vertex) for vertex in range(len(self._body.vertices_m))]
+        loops = [
+            np.concatenate(
+                [
+                    self._arc(vertex, f, g)[:-1]
+                    for f, g in zip(faces, (*faces[1:], faces[0]), strict=True)
+                ]
+            )
+            for vertex, faces in enumerate(rounds)
+        ]
+        normals = np.concatenate(self._normals)
+        for vertex, (faces, loop) in enumerate(zip(rounds, loops, strict=True)):
+            self._add_patch(vertex, faces, loop, normals[loop])
+
+    def _add_patch(self, vertex: int, faces: list[int], loop: Ints, rim: Floats) -> None:
+        """Add a spherical polygon with the normals of its rim: rings that shrink to its middle."""
         middle = self._body.normals[faces].sum(axis=0)
         middle /= np.linalg.norm(middle)
         reach_rad = max(angle_rad(middle, normal) for normal in self._body.normals[faces])

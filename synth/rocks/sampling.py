@@ -1,7 +1,9 @@
 """Sampling of rocks: those of one scene, drawn from the spec, and series of one parameter each."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from concurrent.futures import Executor
 from dataclasses import replace
+from functools import partial
 
 import msgspec
 import numpy as np
@@ -11,30 +13,45 @@ from synth.arrays import Floats
 from synth.errors import SpecError
 from synth.progress import counted
 from synth.rocks.abrasion import abraded
-from synth.rocks.family import Family, find_family
+from synth.rocks.family import Family, Make, find_family
 from synth.rocks.record import RockModel
 from synth.rocks.relief import with_relief
 from synth.spec.rocks import RocksSpec
 
 
-def quarry(spec: RocksSpec, *, rng: np.random.Generator) -> list[RockModel]:
-    """Rocks of one scene, in an order that is independent of their shape."""
+def quarry(
+    spec: RocksSpec, *, rng: np.random.Generator, pool: Executor | None = None
+) -> list[RockModel]:
+    """Rocks of one scene, in an order that is independent of their shape; see `made`."""
     if spec.count == 0:
         return []
     if spec.series in SERIES:
         rocks = SERIES[spec.series](spec, rng=rng)
         return [rocks[index] for index in rng.permutation(len(rocks))]
+    return made(planned(spec, rng=rng), spec, spec.count, pool=pool)
+
+
+def planned(spec: RocksSpec, *, rng: np.random.Generator) -> Iterator[Make]:
+    """Rocks of the series `random`, their random numbers drawn as they are asked for."""
     families = [find_family(name) for name in _members(spec.family)]
     turn = int(rng.integers(len(families)))
-    return [
-        draw_rock(
-            spec,
-            families[(turn + index) % len(families)],
-            draw_half_axes_m(spec, rng=rng),
-            rng,
-        )
-        for index in counted(range(spec.count), "rocks")
-    ]
+    for index in range(spec.count):
+        family = families[(turn + index) % len(families)]
+        yield _planned_rock(spec, family, draw_half_axes_m(spec, rng=rng), rng)
+
+
+def made(
+    plans: Iterable[Make], spec: RocksSpec, count: int, *, pool: Executor | None = None
+) -> list[RockModel]:
+    """Rocks of so many plans of a spec, in their order, the same to the byte with any pool.
+
+    A pool's processes make them while this one draws the next, where the family has plans.
+    """
+    if pool is None or any(find_family(name).plan is None for name in _members(spec.family)):
+        return [make() for _, make in zip(counted(range(count), "rocks"), plans, strict=True)]
+    drawn = zip(counted(range(count), "rocks drawn"), plans, strict=True)
+    begun = [pool.submit(make) for _, make in drawn]
+    return [rock.result() for rock in counted(begun, "rocks")]
 
 
 def draw_half_axes_m(spec: RocksSpec, *, rng: np.random.Generator) -> Floats:
@@ -47,16 +64,39 @@ def draw_half_axes_m(spec: RocksSpec, *, rng: np.random.Generator) -> Floats:
 def draw_rock(
     spec: RocksSpec, family: Family, half_axes_m: Floats, rng: np.random.Generator
 ) -> RockModel:
-    """Rock of a family, with relief where the spec asks for it.
+    """Rock of a family, with relief where the spec asks for it."""
+    return _planned_rock(spec, family, half_axes_m, rng)()
+
+
+def _planned_rock(
+    spec: RocksSpec, family: Family, half_axes_m: Floats, rng: np.random.Generator
+) -> Make:
+    """Rock of a family, its random numbers drawn.
 
     Relief draws from a generator of its own: it leaves the forms unchanged.
     """
-    rock = _form(spec, family, half_axes_m, rng)
+    make = _planned_form(spec, family, half_axes_m, rng)
     if family.always_rough or spec.relief:
         own = rng.spawn(1)[0]
         rms = own.uniform(*spec.relief_rms)
-        rock = with_relief(rock, relief_rms=rms, degrees=spec.relief_degrees, rng=own)
-    return replace(rock, family=family.name, extended=family.extended)
+        make = partial(_rough, make, rms, spec.relief_degrees, own)
+    return partial(_named, make, family.name, family.extended)
+
+
+def _rough(make: Make, rms: float, degrees: tuple[int, int], rng: np.random.Generator) -> RockModel:
+    return with_relief(make(), relief_rms=rms, degrees=degrees, rng=rng)
+
+
+def _named(make: Make, name: str, extended: bool) -> RockModel:
+    return replace(make(), family=name, extended=extended)
+
+
+def _worn(make: Make, abrasion: float) -> RockModel:
+    return abraded(make(), abrasion=abrasion)
+
+
+def _given(rock: RockModel) -> RockModel:
+    return rock
 
 
 def graded(spec: RocksSpec, *, rng: np.random.Generator) -> list[RockModel]:
@@ -95,7 +135,7 @@ def by_sphericity(spec: RocksSpec, *, rng: np.random.Generator) -> list[RockMode
 def by_relief(spec: RocksSpec, *, rng: np.random.Generator) -> list[RockModel]:
     """Series of one form under one relief, from smooth to rough: its height alone differs."""
     plain = msgspec.structs.replace(spec, relief=False, series="random")
-    base = _form(plain, find_family(spec.family), draw_half_axes_m(spec, rng=rng), rng)
+    base = _planned_form(plain, find_family(spec.family), draw_half_axes_m(spec, rng=rng), rng)()
     seed = int(rng.spawn(1)[0].integers(2**62))
     return [
         replace(
@@ -114,19 +154,22 @@ def _members(name: str) -> tuple[str, ...]:
     return find_family(name).members or (name,)
 
 
-def _form(
+def _planned_form(
     spec: RocksSpec, family: Family, half_axes_m: Floats, rng: np.random.Generator
-) -> RockModel:
+) -> Make:
     """Rock of a family without relief, worn where the spec asks for it.
 
     Wear draws from a generator of its own, as relief does.
     """
-    if family.draw is None:
+    if family.plan is not None:
+        make = family.plan(spec, half_axes_m, rng)
+    elif family.draw is not None:
+        make = partial(_given, family.draw(spec, half_axes_m, rng))
+    else:
         raise SpecError(f"rocks.family: expected one that draws rocks, found {family.name!r}")
-    rock = family.draw(spec, half_axes_m, rng)
     if isinstance(spec.abrasion, UnsetType):
-        return rock
-    return abraded(rock, abrasion=rng.spawn(1)[0].uniform(*spec.abrasion))
+        return make
+    return partial(_worn, make, rng.spawn(1)[0].uniform(*spec.abrasion))
 
 
 def _rounded(

@@ -1,6 +1,7 @@
 """Scene model: a ground, the rocks that lie on it, the camera and its stations."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass, field
 
 import msgspec
@@ -10,8 +11,9 @@ from synth.arrays import Floats
 from synth.camera.camera import Pose, RenderCamera
 from synth.camera.trajectories import camera_distance_m, camera_of, stations
 from synth.geometry.mesh import Mesh
-from synth.progress import counted
 from synth.rocks import RockModel, quarry
+from synth.rocks.family import Make
+from synth.rocks.sampling import made, planned
 from synth.scene.finish import Finish, draw_finishes, draw_wetness
 from synth.scene.ground import SceneGround, make_ground
 from synth.scene.placement import (
@@ -23,7 +25,7 @@ from synth.scene.placement import (
     strew,
 )
 from synth.scene.population import draw_diameters_m
-from synth.scene.settling import buried_fraction, settle, shortest_turn
+from synth.scene.settling import buried_fraction, lowest_side, lying_turn, shortest_turn
 from synth.scene.thing_placement import place_things, reach_in_view_m
 from synth.spec import SceneSpec, dataset_of, tints_of
 from synth.spec.things import ThingsSpec
@@ -74,10 +76,11 @@ class SceneModel:
     mast_shadow: bool = False  # the camera's own mast shades the ground
 
 
-def build_scene(spec: SceneSpec, index: int) -> SceneModel:
-    """Scene `index` of a dataset, a function of its arguments alone.
+def build_scene(spec: SceneSpec, index: int, *, pool: Executor | None = None) -> SceneModel:
+    """Scene `index` of a dataset, a function of its spec and number alone.
 
-    What can be switched on draws from generators of its own, so that it does not change the rest.
+    The processes of a pool make the rocks while this one draws them. What can be switched on draws
+    from generators of its own, so that it does not change the rest.
 
     Raises:
         SpecError: the rocks do not fit.
@@ -96,9 +99,9 @@ def build_scene(spec: SceneSpec, index: int) -> SceneModel:
     )
     if counted and spec.rocks.count > _CROWD:
         _refuse_crowd(spec, yard, ground, rng=np.random.default_rng([spec.seed, index]))
-    rocks = _rocks(spec, index, rng=rng)
+    rocks = _rocks(spec, index, rng=rng, pool=pool)
     falling = None if spec.ground.resting == "flattest" else lying
-    standing = [_stood(rock, ground, rng=rng, falling=falling) for rock in rocks]
+    standing = _stood(rocks, ground, rng=rng, falling=falling, pool=pool)
     meshes = [one.mesh for one in standing]
     if counted:
         places_m = scatter(meshes, yard, rng=rng)
@@ -135,20 +138,27 @@ def _child(spec: SceneSpec, index: int, key: int) -> np.random.Generator:
     return np.random.default_rng([spec.seed, index, key])
 
 
-def _rocks(spec: SceneSpec, index: int, *, rng: np.random.Generator) -> list[RockModel]:
+def _rocks(
+    spec: SceneSpec, index: int, *, rng: np.random.Generator, pool: Executor | None
+) -> list[RockModel]:
     """Scene's own rocks, or those that all scenes of the dataset share."""
     counted = spec.population.kind == "count"
     if dataset_of(spec).shared_rocks:
         shared = _child(spec, 0, _SHARED)
-        return quarry(spec.rocks, rng=shared) if counted else _population(spec, 0)
-    return quarry(spec.rocks, rng=rng) if counted else _population(spec, index)
+        return quarry(spec.rocks, rng=shared, pool=pool) if counted else _population(spec, 0, pool)
+    return quarry(spec.rocks, rng=rng, pool=pool) if counted else _population(spec, index, pool)
 
 
-def _population(spec: SceneSpec, index: int) -> list[RockModel]:
-    """Population's rocks, largest first; D is the mean of length and width, a + b."""
+def _population(spec: SceneSpec, index: int, pool: Executor | None) -> list[RockModel]:
+    """Population's rocks, largest first."""
     rng = _child(spec, index, _POPULATION)
-    rocks = []
-    for diameter_m in counted(draw_diameters_m(spec.population, rng=rng).tolist(), "rocks"):
+    diameters_m = draw_diameters_m(spec.population, rng=rng)
+    return made(_planned(spec, diameters_m, rng), spec.rocks, len(diameters_m), pool=pool)
+
+
+def _planned(spec: SceneSpec, diameters_m: Floats, rng: np.random.Generator) -> Iterator[Make]:
+    """Rocks of diameters D, the mean of length and width, a + b, with their numbers drawn."""
+    for diameter_m in diameters_m.tolist():
         ratio = rng.uniform(*spec.rocks.b_over_a)
         longest_m = 2.0 * diameter_m / (1.0 + ratio)
         one = msgspec.structs.replace(
@@ -158,8 +168,7 @@ def _population(spec: SceneSpec, index: int) -> list[RockModel]:
             diameter_m=(longest_m, longest_m),
             b_over_a=(ratio, ratio),
         )
-        rocks += quarry(one, rng=rng)
-    return rocks
+        yield from planned(one, rng=rng)
 
 
 def _feet_m(poses: Sequence[Pose]) -> Floats:
@@ -173,14 +182,26 @@ def _onto(ground: SceneGround) -> Floats:
 
 
 def _stood(
-    rock: RockModel,
+    rocks: Sequence[RockModel],
     ground: SceneGround,
     *,
     rng: np.random.Generator,
     falling: np.random.Generator | None,
+    pool: Executor | None = None,
+) -> list[_Standing]:
+    """Rocks settled and turned onto the slope, on the vertical through the origin."""
+    vertices_m = [rock.mesh.vertices_m for rock in rocks]
+    if falling is not None:
+        sides = [lowest_side(one_m, rng=falling) for one_m in vertices_m]
+    else:
+        sides = list((map if pool is None else pool.map)(lowest_side, vertices_m))
+    return [_standing(rock, side, ground, rng) for rock, side in zip(rocks, sides, strict=True)]
+
+
+def _standing(
+    rock: RockModel, side: Floats, ground: SceneGround, rng: np.random.Generator
 ) -> _Standing:
-    """Rock settled and turned onto the slope, on the vertical through the origin."""
-    _, turn, height_m = settle(rock, yaw_rad=rng.uniform(0.0, 2.0 * np.pi), rng=falling)
+    turn, height_m = lying_turn(side, yaw_rad=rng.uniform(0.0, 2.0 * np.pi)), -float(side[3])
     if ground.gradient.any():
         turn = _onto(ground) @ turn
     mesh = rock.mesh.moved(turn, np.array([0.0, 0.0, height_m]))
@@ -195,7 +216,7 @@ def _refuse_crowd(
     With the scene's own seed they are of the scene's own forms.
     """
     sample = quarry(msgspec.structs.replace(spec.rocks, count=_SAMPLE), rng=rng)
-    meshes = [_stood(rock, ground, rng=rng, falling=None).mesh for rock in sample]
+    meshes = [one.mesh for one in _stood(sample, ground, rng=rng, falling=None)]
     refuse_crowd(spec.rocks.count, meshes, yard, rng=rng)
 
 

@@ -6,27 +6,28 @@ from scipy.spatial import ConvexHull
 
 from synth.arrays import Floats
 from synth.geometry.mesh import Mesh
-from synth.rocks import RockModel
 
 _ONE_PLANE = 1e-6  # hull facets whose normals differ less are one side
 
 
-def settle(
-    rock: RockModel, *, yaw_rad: float, rng: np.random.Generator | None = None
-) -> tuple[RockModel, Floats, float]:
-    """Rock, the rotation in which it lies stably, and its centroid's height.
+def lowest_side(vertices_m: Floats, *, rng: np.random.Generator | None = None) -> Floats:
+    """Plane (4,) of the side of a body on which it lies stably, n·x + d = 0, n outward.
 
-    The side of the convex hull nearest to the centroid goes down: the lowest place the centroid
-    can take, so the body cannot roll. With `rng` the rock falls from a random attitude instead,
-    and rolls to the lowest side it can reach downhill. The yaw then turns it about the vertical.
+    The side of the convex hull nearest to the centroid, the origin, goes down: the lowest place
+    the centroid can take, so the body cannot roll. With `rng` the rock falls from a random
+    attitude instead, and rolls to the lowest side it can reach downhill.
     """
-    hull = ConvexHull(rock.mesh.vertices_m)
+    hull = ConvexHull(vertices_m)
     side = int(np.argmin(-hull.equations[:, 3])) if rng is None else _rolled(hull, rng)
-    plane = hull.equations[side]
+    return np.asarray(hull.equations[side])
+
+
+def lying_turn(plane: Floats, *, yaw_rad: float) -> Floats:
+    """Rotation (3, 3) that lays the side of a plane (4,) down and turns it about the vertical."""
     tilt = shortest_turn(plane[:3], np.array([0.0, 0.0, -1.0]))
     cosine, sine = np.cos(yaw_rad), np.sin(yaw_rad)
     yaw = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
-    return rock, yaw @ tilt, float(-plane[3])
+    return np.asarray(yaw @ tilt)
 
 
 def _rolled(hull: ConvexHull, rng: np.random.Generator) -> int:

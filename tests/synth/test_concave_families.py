@@ -21,7 +21,7 @@ from synth.rocks.outlines import mesh_form, plane_across
 from synth.rocks.sphere import unit_sphere
 from synth.rocks.star import Made, draw_waves, fitted, star_mesh, star_rock
 from synth.scene.scene import build_scene
-from synth.scene.settling import settle
+from synth.scene.settling import lowest_side, lying_turn
 from synth.spec import convert_spec
 from synth.spec.rocks import RocksSpec
 
@@ -134,8 +134,9 @@ def test_the_longest_axis_is_the_one_asked_for(rocks):
 
 @pytest.mark.parametrize("name", FAMILIES)
 def test_concave_rocks_rest_on_a_side_of_their_hull(rocks, name):
-    rock, turn, height_m = settle(rocks[name], yaw_rad=0.3)
-    points_m = rock.mesh.vertices_m @ turn.T + [0.0, 0.0, height_m]
+    rock = rocks[name]
+    side = lowest_side(rock.mesh.vertices_m)
+    points_m = rock.mesh.vertices_m @ lying_turn(side, yaw_rad=0.3).T - [0.0, 0.0, side[3]]
     assert points_m[:, 2].min() == pytest.approx(0.0, abs=1e-9)
     # The centroid, over the origin, stands over the hull of what touches the ground.
     touching = points_m[points_m[:, 2] < 1e-9, :2]

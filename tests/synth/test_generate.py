@@ -4,6 +4,7 @@ import json
 import shutil
 
 import cv2
+import msgspec
 import numpy as np
 import pytest
 
@@ -38,6 +39,14 @@ def dataset(tmp_path_factory):
 def test_two_processes_give_the_same_bytes(dataset, tmp_path):
     generate_dataset(SPEC, tmp_path / "two", jobs=2)
     assert digests(tmp_path / "two") == digests(dataset)
+
+
+def test_further_jobs_make_the_rocks_of_one_scene_to_the_same_bytes(tmp_path):
+    rocks = RocksSpec(count=4, series="random", spacing=1.0)
+    spec = msgspec.structs.replace(SPEC, scenes=1, rocks=rocks, views=ViewsSpec(count=1))
+    for jobs in (1, 2):
+        generate_dataset(spec, tmp_path / f"{jobs}", jobs=jobs)
+    assert digests(tmp_path / "2") == digests(tmp_path / "1")
 
 
 def test_an_interrupted_run_goes_on_to_the_same_bytes(dataset, tmp_path):

@@ -1,15 +1,15 @@
 """Broken rocks: worn bodies with one to three fresh, rough fractures."""
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated
 
 import numpy as np
 from msgspec import Meta, Struct
 
 from synth.arrays import Floats, Ints
-from synth.rocks.family import Family, own_options
+from synth.rocks.family import Family, Make, own_options
 from synth.rocks.polyhedron import spread_normals
-from synth.rocks.record import RockModel
 from synth.rocks.sphere import unit_sphere
 from synth.rocks.star import Made, StarSurface, Waves, convex_core, draw_waves, fitted, star_rock
 from synth.spec.limits import check_ranges
@@ -84,9 +84,10 @@ def make_broken(half_axes_m: Floats, options: BrokenOptions, rng: np.random.Gene
     return Made(fitted(surface, half_axes_m), knobs, smooth=height == 0.0, has_edges=True)
 
 
-def _draw(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> RockModel:
+def _plan(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> Make:
     options = own_options(spec, BrokenOptions)
-    return star_rock(
+    return partial(
+        star_rock,
         "broken",
         make_broken(half_axes_m, options, rng),
         longest_m=float(half_axes_m[0]),
@@ -95,5 +96,5 @@ def _draw(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> Roc
 
 
 BROKEN = Family(
-    "broken", "worn rocks with fresh fractures", draw=_draw, extended=True, options=BrokenOptions
+    "broken", "worn rocks with fresh fractures", plan=_plan, extended=True, options=BrokenOptions
 )

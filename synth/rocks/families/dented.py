@@ -1,14 +1,14 @@
 """Dented rocks: convex bodies with smooth hollows."""
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated
 
 import numpy as np
 from msgspec import Meta, Struct
 
 from synth.arrays import Floats, Ints
-from synth.rocks.family import Family, own_options
-from synth.rocks.record import RockModel
+from synth.rocks.family import Family, Make, own_options
 from synth.rocks.star import Made, StarSurface, convex_core, fitted, star_rock
 from synth.spec.limits import check_ranges
 from synth.spec.rocks import Cuts, RocksSpec, Softness, Subdivisions
@@ -77,9 +77,10 @@ def make_dented(half_axes_m: Floats, options: DentedOptions, rng: np.random.Gene
     return Made(fitted(surface, half_axes_m), knobs, smooth=True, has_edges=False)
 
 
-def _draw(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> RockModel:
+def _plan(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> Make:
     options = own_options(spec, DentedOptions)
-    return star_rock(
+    return partial(
+        star_rock,
         "dented",
         make_dented(half_axes_m, options, rng),
         longest_m=float(half_axes_m[0]),
@@ -88,5 +89,5 @@ def _draw(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> Roc
 
 
 DENTED = Family(
-    "dented", "convex rocks with hollows", draw=_draw, extended=True, options=DentedOptions
+    "dented", "convex rocks with hollows", plan=_plan, extended=True, options=DentedOptions
 )

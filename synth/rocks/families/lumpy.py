@@ -1,14 +1,14 @@
 """Lumpy rocks: ellipsoids grown into one another."""
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated
 
 import numpy as np
 from msgspec import Meta, Struct
 
 from synth.arrays import Floats, Ints
-from synth.rocks.family import Family, own_options
-from synth.rocks.record import RockModel
+from synth.rocks.family import Family, Make, own_options
 from synth.rocks.star import Made, fitted, star_rock
 from synth.spec.limits import check_ranges
 from synth.spec.rocks import RocksSpec, Subdivisions
@@ -68,9 +68,10 @@ def make_lumpy(half_axes_m: Floats, options: LumpyOptions, rng: np.random.Genera
     return Made(fitted(surface, half_axes_m), knobs, smooth=True, has_edges=False)
 
 
-def _draw(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> RockModel:
+def _plan(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> Make:
     options = own_options(spec, LumpyOptions)
-    return star_rock(
+    return partial(
+        star_rock,
         "lumpy",
         make_lumpy(half_axes_m, options, rng),
         longest_m=float(half_axes_m[0]),
@@ -79,5 +80,5 @@ def _draw(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> Roc
 
 
 LUMPY = Family(
-    "lumpy", "ellipsoids grown into one another", draw=_draw, extended=True, options=LumpyOptions
+    "lumpy", "ellipsoids grown into one another", plan=_plan, extended=True, options=LumpyOptions
 )

@@ -1,14 +1,14 @@
 """Slabs: layered plates with broken sides and ledges."""
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated
 
 import numpy as np
 from msgspec import Meta, Struct
 
 from synth.arrays import Floats, Ints
-from synth.rocks.family import Family, own_options
-from synth.rocks.record import RockModel
+from synth.rocks.family import Family, Make, own_options
 from synth.rocks.star import Cuts, Made, draw_waves, fitted, star_rock
 from synth.spec.limits import AxisRatio, check_ranges
 from synth.spec.rocks import RocksSpec, Softness, Subdivisions
@@ -81,11 +81,12 @@ def make_slab(half_axes_m: Floats, options: SlabOptions, rng: np.random.Generato
     )
 
 
-def _draw(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> RockModel:
+def _plan(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> Make:
     options = own_options(spec, SlabOptions)
     thin_m = half_axes_m.copy()
     thin_m[2] = half_axes_m[1] * rng.uniform(*options.thickness)
-    return star_rock(
+    return partial(
+        star_rock,
         "slab",
         make_slab(thin_m, options, rng),
         longest_m=float(half_axes_m[0]),
@@ -93,4 +94,4 @@ def _draw(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> Roc
     )
 
 
-SLAB = Family("slab", "layered plates with ledges", draw=_draw, extended=True, options=SlabOptions)
+SLAB = Family("slab", "layered plates with ledges", plan=_plan, extended=True, options=SlabOptions)

@@ -1,14 +1,14 @@
 """Vesicular rocks: pitted by bubbles of many sizes."""
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated
 
 import numpy as np
 from msgspec import Meta, Struct
 
 from synth.arrays import Floats, Ints
-from synth.rocks.family import Family, own_options
-from synth.rocks.record import RockModel
+from synth.rocks.family import Family, Make, own_options
 from synth.rocks.star import Made, StarSurface, convex_core, fitted, star_rock
 from synth.spec.limits import Fraction, check_ranges
 from synth.spec.rocks import RocksSpec, Softness, Subdivisions
@@ -95,9 +95,10 @@ def _pit_radii(porosity: float, options: VesicularOptions, rng: np.random.Genera
     return np.asarray(radii[np.cumsum(radii**2) / 4.0 <= porosity])
 
 
-def _draw(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> RockModel:
+def _plan(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> Make:
     options = own_options(spec, VesicularOptions)
-    return star_rock(
+    return partial(
+        star_rock,
         "vesicular",
         make_vesicular(half_axes_m, options, rng),
         longest_m=float(half_axes_m[0]),
@@ -106,5 +107,5 @@ def _draw(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> Roc
 
 
 VESICULAR = Family(
-    "vesicular", "rocks pitted by bubbles", draw=_draw, extended=True, options=VesicularOptions
+    "vesicular", "rocks pitted by bubbles", plan=_plan, extended=True, options=VesicularOptions
 )

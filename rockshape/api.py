@@ -173,7 +173,10 @@ def read(
     shape, name = picture.pixels.shape, Path(image).name
     lens = seen = instances = None
     if right is not None and (range is not None or range_kind is not None):
-        raise InputError("--right: expected a stereo pair alone, found --range or --range-kind")
+        raise InputError(
+            "right (--right): expected a stereo pair alone, "
+            "found range (--range) or range_kind (--range-kind)"
+        )
     with _telling_of_turning(picture):
         if camera is not None:
             lens = read_lens(camera, shape=shape, image_name=name, view=camera_view)

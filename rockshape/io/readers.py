@@ -131,7 +131,7 @@ def read_pair(
     Raises: InputError where the pictures or the camera are no stereo pair's.
     """
     if camera is None:
-        raise InputError("--right: expected a stereo camera (--camera), found none")
+        raise InputError("right (--right): expected a stereo camera (--camera), found none")
     right = read_picture(path, max_pixels=max_pixels).pixels
     scale = RangeScale() if unit is None else parse_unit(unit)
     try:

@@ -246,7 +246,7 @@ def test_what_is_no_pair_is_one_line(tmp_path: Path) -> None:
     cv2.imwrite(str(tmp_path / "noise.png"), noise)
     np.save(tmp_path / "z.npy", left.points_m)
     wrong: list[tuple[dict[str, object], str]] = [
-        ({**files}, r"--right: expected a stereo camera \(--camera\), found none"),
+        ({**files}, r"right \(--right\): expected a stereo camera \(--camera\), found none"),
         ({**files, "camera": one}, "found a camera of one eye"),
         ({**exchanged, "camera": two}, "with left and right exchanged"),
         ({**files, "right": files["image"], "camera": two}, "the left one once more"),

@@ -39,6 +39,10 @@ def _rasters() -> Iterator[File]:
     for name, suffix in (("PNG", ".png"), ("BMP", ".bmp")):
         yield name, suffix, pillow(found.astype(np.uint8), name)
         yield name, suffix, pillow(found > 0, name)
+    yield "PGM", ".pgm", pillow(found.astype(np.uint8), "PPM")
+    yield "PGM", ".pgm", pillow(found, "PPM")
+    words = " ".join(map(str, found.ravel()))
+    yield "PGM", ".pgm", f"P2 {SHAPE[1]} {SHAPE[0]} 2 {words}\n".encode()
     in_colours = np.dstack([found.astype(np.uint8)] * 3)
     yield "WebP", ".webp", pillow(in_colours, "WebP", lossless=True)
     stack = np.stack([found == number for number in (1, 2)]).astype(np.uint8)

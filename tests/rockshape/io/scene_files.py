@@ -186,6 +186,7 @@ LABELS: dict[str, Make] = {
     "ImageJ ROI": lambda f: saved(f / "one.roi", lambda at: next(_rois()).tofile(at)),
     "NPZ": lambda f: saved(f / "l.npz", lambda at: np.savez(at, labels=label_image())),
     "BMP": lambda f: saved(f / "l.bmp", lambda at: cv2.imwrite(at, label_image())),
+    "PGM": lambda f: saved(f / "l.pgm", lambda at: cv2.imwrite(at, label_image())),
     "WebP": lambda f: saved(
         f / "l.webp", lambda at: Image.fromarray(label_image()).save(at, lossless=True)
     ),

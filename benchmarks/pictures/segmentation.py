@@ -15,7 +15,7 @@ from views import made_views
 
 import validation
 from rockshape.io import read_image, read_range
-from rockshape.observation import Observation
+from rockshape.observation import Observation, locate_camera
 from rockshape.outline.trace import trace_outline
 from rockshape.segmentation import FINDERS, Segmentation
 from rockshape.segmentation.by_image.ground_appearance import read_lightness
@@ -106,7 +106,7 @@ def _three(title: str, seen: Observation) -> list[Panel]:
 def _mars() -> Observation:
     image = read_image(MARS / "i944014r.png")
     points_m = read_range(MARS / "i944014r_xyz.npz", shape=image.shape, camera=None)
-    return Observation(image=image, points_m=points_m)
+    return locate_camera(Observation(image=image, points_m=points_m))
 
 
 def _cases() -> list[Panel]:

@@ -80,31 +80,48 @@ def _prepare(name: str, out: Path) -> None:
             (out / file).write_bytes(b"old")
 
 
-def disturbed(
-    name: str, way: Way, *, times: int, seed: int, folder: Path, given: Path
-) -> Iterator[str]:
-    """Run a command, then so often disturbed in one way and resumed; what went wrong."""
-    command, rng = COMMANDS[name], np.random.default_rng(seed)
-    calm = folder / f"{name} calm"
-    _prepare(name, calm)
+class Calm(NamedTuple):
+    """What an undisturbed run takes and writes."""
+
+    took_s: float
+    sizes: list[int]  # of its files, bytes
+    content: dict[str, bytes]  # of its files, by path
+
+
+def undisturbed(name: str, *, folder: Path, given: Path) -> Calm:
+    """Run a command once and remove what it wrote.
+
+    Raises:
+        RuntimeError: the run fails.
+    """
+    out = folder / f"{name} calm"
+    _prepare(name, out)
     began = time.monotonic()
-    first = start(command.argv(given, calm))
-    if first.communicate()[1].count("Traceback") or first.returncode != 0:
-        yield f"expected an undisturbed run, found status {first.returncode}"
-        return
-    took, whole = time.monotonic() - began, _content(calm)
-    sizes = [path.stat().st_size for path in calm.rglob("*") if path.is_file()]
+    run = start(COMMANDS[name].argv(given, out))
+    if run.communicate()[1].count("Traceback") or run.returncode != 0:
+        raise RuntimeError(f"{name}: expected an undisturbed run, found status {run.returncode}")
+    took_s, content = time.monotonic() - began, _content(out)
+    sizes = [path.stat().st_size for path in out.rglob("*") if path.is_file()]
+    shutil.rmtree(out)
+    return Calm(took_s, sizes, content)
+
+
+def disturbed(
+    name: str, way: Way, calm: Calm, *, times: int, seed: int, folder: Path, given: Path
+) -> Iterator[str]:
+    """Run a command so often, disturbed in one way and resumed; what went wrong."""
+    command, rng = COMMANDS[name], np.random.default_rng(seed)
+    whole = calm.content
     for index in range(times):
         place = folder / f"{name} {index}"
         place.mkdir()
         out = place / "out"
         argv = command.argv(given, out)
-        run = Run(argv, place, partial(_prepare, name, out), took, sizes)
+        run = Run(argv, place, partial(_prepare, name, out), calm.took_s, calm.sizes)
         with way(run, rng) as done:
             found = [done.wrong, *_partial(name, out, whole), _resumed(command, argv, out, whole)]
         yield from (f"{done.what}: {each}" for each in found if each)
         shutil.rmtree(place)
-    shutil.rmtree(calm)
 
 
 def _partial(name: str, out: Path, whole: dict[str, bytes]) -> Iterator[str]:
@@ -140,11 +157,11 @@ def main() -> int:
         if not can_mount(given):
             print("full disks: left out, for no filesystem can be mounted here")
             del ways["full disks"]
+        place = {"folder": Path(folder), "given": given}
+        calm = {name: undisturbed(name, **place) for name in COMMANDS}
         for name, (told, way) in product(COMMANDS, ways.items()):
             found = list(
-                disturbed(
-                    name, way, times=args.times, seed=args.seed, folder=Path(folder), given=given
-                )
+                disturbed(name, way, calm[name], times=args.times, seed=args.seed, **place)
             )
             end = f"{len(found)} wrong" if found else "all resumed to the undisturbed bytes"
             print("\n".join([f"{name}: {args.times} {told}: {end}", *found]), flush=True)

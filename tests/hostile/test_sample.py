@@ -93,15 +93,28 @@ def test_what_takes_too_long_is_told_though_its_alarm_is_swallowed(monkeypatch) 
     assert fuzz.COUNTS["loop", "late"] == 2
 
 
-@pytest.mark.parametrize("name", kill.COMMANDS)
+@pytest.fixture(scope="module")
+def given_files(tmp_path_factory) -> Path:
+    """Inputs of the commands that are disturbed."""
+    return kill.inputs(tmp_path_factory.mktemp("given"))
+
+
+@pytest.fixture(scope="module", params=kill.COMMANDS)
+def calm_run(request, given_files, tmp_path_factory) -> tuple[str, kill.Calm]:
+    """A command and what its undisturbed run writes."""
+    folder = tmp_path_factory.mktemp("calm")
+    return request.param, kill.undisturbed(request.param, folder=folder, given=given_files)
+
+
 @pytest.mark.parametrize("told", WAYS)
-def test_a_disturbed_run_is_resumed_to_the_undisturbed_bytes(told, name, tmp_path) -> None:
-    given_files = tmp_path / "given"
-    given_files.mkdir()
-    if told == "full disks" and not can_mount(given_files):
+def test_a_disturbed_run_is_resumed_to_the_undisturbed_bytes(
+    told, calm_run, given_files, tmp_path
+) -> None:
+    if told == "full disks" and not can_mount(tmp_path):
         pytest.skip("no filesystem can be mounted here")
-    kill.inputs(given_files)
-    found = kill.disturbed(name, WAYS[told], times=1, seed=3, folder=tmp_path, given=given_files)
+    name, calm = calm_run
+    place = {"folder": tmp_path, "given": given_files}
+    found = kill.disturbed(name, WAYS[told], calm, times=1, seed=3, **place)
     assert list(found) == []
 
 

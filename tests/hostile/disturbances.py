@@ -4,6 +4,7 @@ Each is a context in which the run has been disturbed and can be started again; 
 done and what the run did wrong.
 """
 
+import os
 import resource
 import shutil
 import signal
@@ -84,9 +85,13 @@ def full_disk(run: Run, rng: np.random.Generator) -> Iterator[Disturbed]:
     """A filesystem that holds less than the run writes, enlarged before the run is resumed."""
     needed = sum(-(-size // PAGE_BYTES) for size in run.sizes)
     pages = int(rng.integers(1, needed))
-    _mount(run.folder, "-o", f"size={pages * PAGE_BYTES}", "-t", "tmpfs", "tmpfs")
+    _mount(run.folder, "-o", f"size={ENOUGH_BYTES}", "-t", "tmpfs", "tmpfs")
     try:
         run.prepare()
+        disk = os.statvfs(run.folder)
+        taken = disk.f_blocks - disk.f_bfree  # by old outputs, which any disk has held
+        pages = max(pages, taken)
+        _mount(run.folder, "-o", f"remount,size={pages * PAGE_BYTES}")
         done = _ended(f"a disk of {pages} of {needed} pages", start(run.argv))
         _mount(run.folder, "-o", f"remount,size={ENOUGH_BYTES}")
         yield done

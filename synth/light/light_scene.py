@@ -10,9 +10,10 @@ from synth.light.lit_scene import Stage
 from synth.light.mast import MastShadow
 from synth.light.painter import Painter
 from synth.light.rock_paint import rock_paint
+from synth.light.rock_relief import rock_relief
 from synth.light.thing_body import thing_body
 from synth.scene.scene import SceneModel
-from synth.spec.surface import SurfaceSpec
+from synth.spec.surface import SurfaceSpec, grain_of
 from synth.spec.view import SunSpec
 from synth.terrain.skin import Skin
 
@@ -37,6 +38,7 @@ def light_scene(
             position_m=placed.position_m,
             tint=tint(placed.finish.rgb),
             paint=rock_paint(placed.finish, placed.albedo * tint(placed.finish.rgb)),
+            relief=rock_relief(placed.model_to_world, placed.position_m, grain_of(surface)),
         )
         for placed in scene.rocks
     )

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from synth.arrays import Floats, Singles
 from synth.camera.camera import Pose, RenderCamera
+from synth.light.air import Air
 from synth.light.body import Body
 from synth.light.colour import Appearance
 from synth.light.fine_relief import FineRelief
@@ -55,8 +56,7 @@ class Painter:
         self._plain = len(ground) == 1
         self._mast = mast
         self._sun, self._surface = sun, surface
-        self._haze_m = haze_m
-        self._relief = FineRelief([*rocks, *ground])
+        self._relief = FineRelief([*rocks, *ground], rocks=len(rocks))
         self._plane = None if plane_normal is None else plane_normal.astype(np.float32)
         self._towards_sun = towards_sun(sun).astype(np.float32)
         self._reflectance = Reflectance(
@@ -68,6 +68,7 @@ class Painter:
             if appearance is None
             else np.stack([appearance.sun, appearance.sky]).astype(np.float32)
         )
+        self._air = Air(self._sky_colour, sun.ambient, haze_m)
         level = plane_normal is not None
         self._shadow_map = ShadowMap(
             [*rocks, *things] if level else [], ground[1:] if level else [], towards_sun(sun)
@@ -125,7 +126,7 @@ class Painter:
         eye_m = pose.position_m().astype(np.float32)
         depth = depth_m.astype(np.float32).ravel()
         points_m = rays * depth[:, None] + eye_m
-        bright, value = self._sky(len(depth))
+        bright, value = np.full(len(rays), np.float32(SKY)), self._air.sky(rays)
         there = ~np.isnan(depth)
         flat = self._on_plane(points_m, depth) & (labels.ravel() == 0) & there
         here = np.flatnonzero(flat)
@@ -142,10 +143,6 @@ class Painter:
         rest = np.flatnonzero(there & ~flat)
         bright[rest], value[rest] = self._seen(camera, eye_m, rays[rest], 1)
         return bright.reshape(depth_m.shape), value.reshape(*depth_m.shape, self.channels)
-
-    def _sky(self, count: int) -> tuple[Singles, Singles]:
-        bright = np.full(count, np.float32(SKY))
-        return bright, bright[:, None] * self._sky_colour
 
     def _on_plane(self, points_m: Singles, depth: Singles) -> NDArray[np.bool_]:
         if self._plane is None:
@@ -174,7 +171,7 @@ class Painter:
         self, camera: RenderCamera, eye_m: Singles, rays: Singles, factor: int
     ) -> tuple[Singles, Singles]:
         """Brightness of white and the light at the end of rays from the eye."""
-        bright, value = self._sky(len(rays))
+        bright, value = np.full(len(rays), np.float32(SKY)), self._air.sky(rays)
         hits = self.surfaces.trace(np.broadcast_to(eye_m, rays.shape).copy(), rays)
         here = np.flatnonzero(hits.body >= 0)
         if not len(here):
@@ -190,11 +187,8 @@ class Painter:
             stretch=stretch(facing),
         )
         bright[here], value[here] = self._shade(samples, eye_m)
-        if self._haze_m is not None:
-            distance_m = hits.length[here] * np.linalg.norm(rays[here], axis=1)
-            clear = np.exp(-distance_m / np.float32(self._haze_m))[:, None]
-            air = np.float32(SKY) * self._sky_colour
-            value[here] = air + clear * (value[here] - air)
+        distance_m = hits.length[here] * np.linalg.norm(rays[here], axis=1)
+        value[here] = self._air.veiled(value[here], distance_m)
         return bright, value
 
     def _shade(self, samples: Samples, eye_m: Singles) -> tuple[Singles, Singles]:
@@ -209,9 +203,10 @@ class Painter:
             away = np.flatnonzero(samples.normals @ self._towards_sun <= 0.0)
             level = self._light(self._relief.levelled(samples), np.concatenate([shaded, away]))
             bright, shown = level[0] + level[1], self._relief.refined(samples)
-            sky, direct = self._light(shown, shaded)
+            dark = self._relief.dark(samples, away)
+            sky, direct = self._light(shown, np.concatenate([shaded, dark]))
         arriving = sky[:, None] * self._sky_colour + direct[:, None] * self._sun_colour
-        given_back = np.float32(EXPOSURE) * arriving * self._reflectance.at(samples)
+        given_back = np.float32(EXPOSURE) * arriving * self._reflectance.at(samples, shown.normals)
         if self._wetness > 0.0:
             given_back += self._highlights(shown, direct)[:, None] * self._sun_colour
         return bright, given_back

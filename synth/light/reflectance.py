@@ -40,11 +40,12 @@ class Reflectance:
         self._turns = np.stack([body.model_to_world for body in bodies]).astype(np.float32)
         self._origins_m = np.stack([body.position_m for body in bodies]).astype(np.float32)
 
-    def at(self, samples: Samples) -> Singles:
+    def at(self, samples: Samples, normals: Singles) -> Singles:
         """Reflectance at samples, (n, k): k = 3 for R, G, B, or 1, their luminance.
 
         ρ = ρ_body (1 + contrast × texture); dust of the ground's albedo covers the share
-        dust × (n_z − 0.4)/0.6 of a rock, between 0 and 1.
+        dust × (n_z − 0.4)/0.6 of a rock, between 0 and 1, with n_z of `normals` (n, 3), which have
+        the fine relief.
         """
         surface = self._surface
         found = self._means[samples.body]
@@ -53,7 +54,7 @@ class Reflectance:
             found[here] *= self._paint(number, samples, here)
         rocky = np.flatnonzero(samples.body < self._rocks)
         if surface.dust > 0.0:
-            cover = surface.dust * np.clip((samples.normals[rocky, 2] - 0.4) / 0.6, 0.0, 1.0)
+            cover = surface.dust * np.clip((normals[rocky, 2] - 0.4) / 0.6, 0.0, 1.0)
             found[rocky] += cover[:, None] * (self._dust - found[rocky])
         if surface.contrast > 0.0:
             texture = self._texture(samples)[:, None]

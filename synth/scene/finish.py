@@ -27,6 +27,7 @@ LITHOLOGIES: Mapping[LithologyName, Lithology] = MappingProxyType(
     {
         "grey": Lithology((1.0, 1.0, 1.0), 1.0),
         "basalt": Lithology((0.107, 0.103, 0.100), 0.45),
+        "weathered": Lithology((0.23, 0.185, 0.145), 0.62),
         "dusty": Lithology((0.33, 0.215, 0.12), 0.85),
         "red": Lithology((0.30, 0.15, 0.09), 0.6),
         "tan": Lithology((0.36, 0.29, 0.20), 1.0),

@@ -69,17 +69,32 @@ def pebbles(
     yaws_rad = rng.uniform(0.0, 2.0 * np.pi, size=count)
     turns = Rotation.from_rotvec(np.outer(yaws_rad, [0.0, 0.0, 1.0])).as_matrix()
     sunk = rng.uniform(-0.3, 0.3, size=count)
-    vertices, faces, start = [], [], 0
-    for index in range(count):
-        points, triangles = shapes[index % _SHAPES]
-        body = sizes_m[index] / 2.0 * (points @ turns[index].T)
-        body += np.array([*places_m[index], heights[index] - sunk[index] * sizes_m[index] / 2.0])
-        vertices.append(body)
-        faces.append(triangles + start)
-        start += len(points)
-    vertices_m, all_faces = np.concatenate(vertices), np.concatenate(faces)
+    middles_m = np.column_stack([places_m, heights - sunk * sizes_m / 2.0])
+    vertices_m, all_faces = _bodies(shapes, sizes_m / 2.0, turns, middles_m)
     normals = vertex_normals(vertices_m, all_faces)
     return Mesh(vertices_m=vertices_m, faces=all_faces, normals=normals)
+
+
+def _bodies(
+    shapes: list[tuple[Floats, NDArray[np.int64]]],
+    halves_m: Floats,
+    turns: Floats,
+    middles_m: Floats,
+) -> tuple[Floats, NDArray[np.int64]]:
+    """Vertices and faces of stones, the shapes in turn, of half sizes (n,) at middles (n, 3)."""
+    shape = np.arange(len(halves_m)) % _SHAPES
+    starts = np.cumsum([0, *(len(shapes[one][0]) for one in shape)])
+    first = np.cumsum([0, *(len(shapes[one][1]) for one in shape)])
+    vertices_m = np.empty((starts[-1], 3))
+    faces = np.empty((first[-1], 3), dtype=np.int64)
+    for number, (points, triangles) in enumerate(shapes):
+        here = np.flatnonzero(shape == number)
+        bodies = halves_m[here, None, None] * (points @ turns[here].transpose(0, 2, 1))
+        rows = starts[here][:, None] + np.arange(len(points))
+        vertices_m[rows] = bodies + middles_m[here, None]
+        cells = first[here][:, None] + np.arange(len(triangles))
+        faces[cells] = triangles + starts[here][:, None, None]
+    return vertices_m, faces
 
 
 def _counts(expected: float, ratio: float, *, beyond: bool) -> tuple[int, int]:

@@ -59,6 +59,7 @@ FAMILIES: Registry[FamilyRecord] = Registry(
         "slab": "synth.rocks.families.slab:SLAB",
         "scan": "synth.rocks.families.scan:SCAN",
         "mixed": "synth.rocks.families.mixed:MIXED",
+        "field": "synth.rocks.families.field:FIELD",
     },
 )
 

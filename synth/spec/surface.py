@@ -2,7 +2,7 @@
 
 from typing import Annotated, Literal
 
-from msgspec import Meta, Struct
+from msgspec import UNSET, Meta, Struct, UnsetType
 
 from synth.spec.limits import Fraction, Ratio
 
@@ -15,3 +15,10 @@ class SurfaceSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True)
     contrast: Annotated[float, Meta(ge=0, le=0.5)] = 0.11  # RMS of the texture over the albedo
     ground_albedo: Ratio = 0.55
     dust: Fraction = 0.0  # share of a level top that dust of the ground's albedo covers
+    # not written to manifests unless it is given:
+    grain: Fraction | UnsetType = UNSET  # RMS slope of rocks' relief finer than their triangles
+
+
+def grain_of(surface: SurfaceSpec) -> float:
+    """RMS slope of the rocks' fine relief: the spec's, or none."""
+    return 0.0 if isinstance(surface.grain, UnsetType) else surface.grain

@@ -6,7 +6,7 @@ from msgspec import Meta, Struct
 
 from synth.spec.limits import Fraction, PositiveRange, Ratio, check_range
 
-LithologyName = Literal["grey", "basalt", "dusty", "red", "tan", "pale"]
+LithologyName = Literal["grey", "basalt", "weathered", "dusty", "red", "tan", "pale"]
 Rgb = tuple[Ratio, Ratio, Ratio]  # linear, with the primaries of sRGB
 
 

@@ -14,6 +14,7 @@ _MIDDLE_M, _FAR_M = 256.0, 5000.0  # widths of the periodic maps
 _LONGEST_M = 128.0  # wave of the middle relief
 _FOOT_M, _TOP_M = 250.0, 1100.0  # where hills begin and have their whole height
 _FAR_SLOPE = 3.5
+_FINEST_PX = 10.0  # shorter waves would be steps of the wide triangles there
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +60,7 @@ def make_hills(spec: TerrainSpec, *, radius_m: float, rng: np.random.Generator) 
             )
         ),
         middle_rms_m=float(spec.relief_rms_m * np.sqrt(ratio)),
-        far=MipMap(fractal(_SIDE, _FAR_SLOPE, far, longest_px=_SIDE / 3.0)),
+        far=MipMap(fractal(_SIDE, _FAR_SLOPE, far, finest_px=_FINEST_PX, longest_px=_SIDE / 3.0)),
         far_rms_m=spec.hills_m,
         field_m=radius_m,
     )

@@ -10,7 +10,7 @@ from synth.rocks.ellipsoid import ellipsoid, ellipsoid_mesh
 from synth.rocks.relief import with_relief
 from synth.rocks.sampling import graded
 from synth.rocks.sphere import band_limited, unit_sphere
-from synth.spec.rocks import FAMILIES, RocksSpec
+from synth.spec.rocks import FAMILIES, RealismSpec, RocksSpec
 from tests.paths import EXAMPLES
 
 SCANS = tuple(str(EXAMPLES / "rocks" / f"apollo_sample{n}.ply") for n in (2, 16))
@@ -56,6 +56,15 @@ def test_mixed_holds_every_family():
     spec = RocksSpec(count=4, family="mixed", series="random")
     rocks = quarry(spec, rng=np.random.default_rng(2))
     assert {rock.family for rock in rocks} == set(find_family("mixed").members)
+
+
+def test_a_field_holds_rocks_of_its_families_with_the_facets_asked_for():
+    options = {"subdivisions": 4}
+    realism = RealismSpec(subdivisions=4)
+    spec = RocksSpec(count=6, family="field", options=options, realism=realism)
+    rocks = quarry(spec, rng=np.random.default_rng(2))
+    assert {rock.family for rock in rocks} == {"realistic", "broken", "dented", "slab", "lumpy"}
+    assert all(len(rock.mesh.faces) == 20 * 4**4 for rock in rocks)
 
 
 def test_relief_has_the_rms_it_names():

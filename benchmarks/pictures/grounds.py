@@ -36,9 +36,9 @@ def cell(image: np.ndarray) -> np.ndarray:
 
 
 def made(spec: dict[str, object]) -> np.ndarray:
-    """Return the colour picture of a scene of angular rocks."""
+    """Return the colour picture of a scene."""
     colour = {"colour": True}
-    scene = make_scene(spec, family="realistic", image=colour, renderer="embree", views=1)
+    scene = make_scene(spec, image=colour, renderer="embree", views=1)
     return scene.render(0).image
 
 

@@ -1,6 +1,6 @@
 """Rocks of exactly known shape, seen by a known camera, with their ground truth.
 
-`make_scene` gives a scene whose views are rendered on demand, `make_bed` a gravel bed from above,
+`make_scene` gives a scene whose views are rendered on demand, `make_bed` a gravel bed,
 `make_shapes` drawn shapes. Names are imported when they are first asked for.
 
 The parts, in the order data flows through them: `spec` describes a dataset, `rocks` are drawn from

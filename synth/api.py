@@ -78,7 +78,7 @@ def make_shapes(
 def make_bed(
     spec: BedSource | None = None, *, index: int = 0, **options: Unpack[BedOptions]
 ) -> Bed:
-    """Gravel bed seen from above: picture, labels, heights and the truth of each grain.
+    """Gravel bed from above or obliquely: picture, labels, heights and the truth of each grain.
 
     >>> bed = make_bed(seed=1, grains={"median_px": [15, 30]}, ground={"kinds": ["sand"]})
 

@@ -26,7 +26,7 @@ def add_bed_arguments(kinds: Any) -> None:
     """Declare the kind `bed` among the kinds of output."""
     parser: argparse.ArgumentParser = kinds.add_parser(
         "bed",
-        help="gravel beds from above: images, instance labels, heights and COCO annotations",
+        help="gravel beds: images, instance labels, heights and COCO annotations",
         description="Generate tiles of gravel beds with the truth of each grain.",
         epilog=_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,

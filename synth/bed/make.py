@@ -1,5 +1,6 @@
 """Making of one tile: ground, grains, light and photograph, a function of spec and index alone."""
 
+from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
@@ -9,24 +10,21 @@ from numpy.typing import NDArray
 
 from synth.arrays import Singles
 from synth.bed.bed import Bed
+from synth.bed.packed import MARGIN_PX, pack_bed
 from synth.bed.picture.albedo import (
     RockLook,
     draw_colours,
     draw_looks,
     reflectance,
 )
-from synth.bed.picture.light import draw_light, shine
+from synth.bed.picture.light import draw_light
 from synth.bed.picture.photograph import draw_photograph, photograph
 from synth.bed.picture.texture import PATTERN, RELIEF, texture_maps, textures
-from synth.bed.relief.bodies import body_library
-from synth.bed.relief.ground import fill, ground_maps, make_ground
-from synth.bed.relief.packing import Footprint, Grain, HeightField, pack
-from synth.bed.relief.sizes import draw_grains
+from synth.bed.relief.packing import Footprint, Grain
 from synth.bed.table import grain_table
 from synth.spec.bed import BedSpec
 
-_MARGIN_PX = 16  # of bed round the tile, so that its edge is lit and covered like its middle
-_STREAMS = ("ground", "grains", "packing", "looks", "light", "photograph")
+_STREAMS = ("ground", "grains", "packing", "looks", "light", "photograph", "view")
 
 
 def make_tile(spec: BedSpec, index: int) -> Bed:
@@ -39,52 +37,39 @@ def make_tile(spec: BedSpec, index: int) -> Bed:
         for number, name in enumerate(_STREAMS)
     }
     per_px = spec.supersample
-    shape = (per_px * (spec.height_px + 2 * _MARGIN_PX), per_px * (spec.width_px + 2 * _MARGIN_PX))
-    kind = spec.ground.kinds[int(rng["ground"].integers(len(spec.ground.kinds)))]
-    height, tint = make_ground(
-        kind,
-        shape,
-        samples_per_px=per_px,
-        relief=float(rng["ground"].uniform(*spec.ground.relief)),
-        maps=ground_maps(spec.seed),
-        rng=rng["ground"],
-    )
-    level = float(rng["ground"].uniform(*spec.ground.fill))
-    filled = bool(rng["ground"].uniform() < spec.ground.filled)
-    library = body_library(spec.seed, spec.bodies)
-    area_px2 = shape[0] * shape[1] / per_px**2
-    grains = draw_grains(spec.grains, library, area_px2, rng["grains"])
-    field = HeightField(height.copy(), np.zeros(shape, np.int32), per_px, _MARGIN_PX)
-    places = pack(field, grains, rng["packing"])
-    if filled and grains:
-        fill(field.height_px, field.grain, height, level)
+    bed = pack_bed(spec, rng)
+    view = bed.view
     palette = spec.light.palettes[int(rng["looks"].integers(len(spec.light.palettes)))]
     colours = draw_colours(palette, rng["looks"])
-    looks = _looks(grains, places, colours, rng["looks"])
+    looks = _looks(bed.grains, bed.places, colours, rng["looks"])
     maps = texture_maps(spec.seed)
     pattern = list(maps)[int(rng["looks"].integers(len(maps)))]
-    texture = textures(field.grain, looks.frame, maps[pattern], per_px=per_px, margin_px=_MARGIN_PX)
-    _roughen(field, looks, texture)
+    texture = textures(view.grain, looks.frame, maps[pattern], per_px=per_px, margin_px=MARGIN_PX)
     light = draw_light(spec.light, rng["light"])
     dust = float(rng["light"].uniform(*spec.light.dust)) * (rng["light"].uniform() < 0.5)
-    lit = shine(field.height_px, per_px, light, albedo=float(colours[1].mean()))
-    albedo = reflectance(
-        field.grain, looks, texture, tint, np.ascontiguousarray(lit.normals[..., 2]), dust=dust
-    )
+    relief = _relief(view.grain, looks, texture)
+    lit = view.shine(relief, light, albedo=float(colours[1].mean()))
+    albedo = reflectance(view.grain, looks, texture, view.tint, lit.up, dust=dust)
     photo = draw_photograph(spec.photo, rng["photograph"])
     picture = photograph(_pixel_means(albedo * lit.arriving, per_px), photo, rng["photograph"])
-    labels, seen, counts = _renumbered(_centres(field.grain, per_px))
+    labels, seen, counts = _renumbered(_centres(view.grain, per_px))
     return Bed(
         image=picture,
         labels=labels,
-        height_px=_centres(field.height_px, per_px),
+        height_px=_centres(lit.height_px, per_px),
         normals=_centres(lit.normals, per_px),
         sunlit=_centres(lit.sunlit, per_px),
         albedo=_centres(albedo, per_px),
-        rocks=grain_table(grains, places, seen, counts, shape=labels.shape),
+        rocks=grain_table(
+            [bed.grains[one] for one in seen],
+            [view.outline(one) for one in seen],
+            counts,
+            shape=labels.shape,
+        ),
         conditions={
-            "ground": kind,
-            "filled": filled,
+            "ground": bed.ground,
+            "filled": bed.filled,
+            "tilt_deg": bed.tilt_deg,
             "palette": palette,
             "pattern": pattern,
             "dust": dust,
@@ -92,18 +77,18 @@ def make_tile(spec: BedSpec, index: int) -> Bed:
             "sky": light.sky,
             "sun_azimuth_deg": float(np.rad2deg(light.azimuth_rad)),
             "sun_elevation_deg": float(np.rad2deg(light.elevation_rad)),
-            "grains_dropped": len(grains),
+            "grains_dropped": len(bed.grains),
             **asdict(photo),
         },
         seed=spec.seed,
         index=index,
-        _masks=tuple(_tile_mask(places[one], per_px, labels.shape) for one in seen),
+        _masks=tuple(_tile_mask(*view.mask(one), per_px, labels.shape) for one in seen),
     )
 
 
 def _looks(
-    grains: list[Grain],
-    places: tuple[Footprint, ...],
+    grains: Sequence[Grain],
+    places: Sequence[Footprint],
     colours: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]],
     rng: np.random.Generator,
 ) -> RockLook:
@@ -116,16 +101,18 @@ def _looks(
     )
 
 
-def _roughen(field: HeightField, looks: RockLook, texture: Singles) -> None:
-    """Add the relief of the rocks' textures to the heights."""
-    for column, channel in enumerate((RELIEF, PATTERN)):
-        amplitude = np.ascontiguousarray(looks.relief_px[:, column])[field.grain]
-        field.height_px += amplitude * texture[..., channel]
+def _relief(grain: NDArray[np.int32], looks: RockLook, texture: Singles) -> tuple[Singles, Singles]:
+    """Fine relief of the rocks' textures, px: grain, and pattern."""
+    fine, pattern = (
+        np.ascontiguousarray(looks.relief_px[:, column])[grain] * texture[..., channel]
+        for column, channel in enumerate((RELIEF, PATTERN))
+    )
+    return fine, pattern
 
 
 def _centres(samples: NDArray[Any], per_px: int) -> NDArray[Any]:
     """Values at the pixels' centres, without the margin."""
-    edge = per_px * _MARGIN_PX
+    edge = per_px * MARGIN_PX
     return np.ascontiguousarray(samples[edge:-edge:per_px, edge:-edge:per_px])
 
 
@@ -151,13 +138,13 @@ def _renumbered(
 
 
 def _tile_mask(
-    place: Footprint, per_px: int, shape: tuple[int, int]
+    first: tuple[int, int], mask: NDArray[np.bool_], per_px: int, shape: tuple[int, int]
 ) -> tuple[int, int, NDArray[np.bool_]]:
     """Whole mask of a grain at the pixels' centres, with its first row and column in the tile."""
-    row, column = place.first
+    row, column = first
     skip_rows, skip_columns = -row % per_px, -column % per_px
-    mask = place.mask[skip_rows::per_px, skip_columns::per_px]
-    top = (row + skip_rows) // per_px - _MARGIN_PX
-    left = (column + skip_columns) // per_px - _MARGIN_PX
+    mask = mask[skip_rows::per_px, skip_columns::per_px]
+    top = (row + skip_rows) // per_px - MARGIN_PX
+    left = (column + skip_columns) // per_px - MARGIN_PX
     mask = mask[max(-top, 0) : max(shape[0] - top, 0), max(-left, 0) : max(shape[1] - left, 0)]
     return max(top, 0), max(left, 0), mask.copy()

@@ -1,6 +1,6 @@
 """Keywords of the functions that make beds, laid over a specification."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypedDict
 
@@ -17,6 +17,7 @@ class BedOptions(TypedDict, total=False):
     tiles: int
     width_px: int
     height_px: int
+    tilt_deg: Sequence[float]
     supersample: int
     bodies: int
     grains: Table

@@ -60,10 +60,14 @@ def bed_stage(
     The sun is the tile's own unless another is given. A plain lies round the bed.
 
     Raises:
-        SpecError: a pixel of no size.
+        SpecError: a pixel of no size, or a bed that is not seen from straight above.
     """
     if not pixel_m > 0.0:
         raise SpecError(f"pixel_m: expected above 0, found {pixel_m}")
+    if bed.tilt_deg > 0.0:
+        raise SpecError(
+            f"bed: expected a tile seen from straight above (tilt_deg 0), found {bed.tilt_deg:g}°"
+        )
     vertices_m, faces, labels = bed_surface(bed, pixel_m=pixel_m)
     relief_m = float(np.ptp(vertices_m[:, 2]))
     vertices_m[:, 2] -= vertices_m[:, 2].min() - _BELOW * max(relief_m, pixel_m)
@@ -106,7 +110,7 @@ def render_bed(
     OpenGL binds a process to its backend for good; Embree does not.
 
     Raises:
-        SpecError: a pixel of no size.
+        SpecError: a pixel of no size, or a bed that is not seen from straight above.
         MissingBackendError: the machine lacks the renderer.
     """
     stage = bed_stage(bed, pixel_m=pixel_m, sun=sun, surface=surface)

@@ -22,6 +22,7 @@ Quality = Annotated[int, Meta(ge=1, le=100)]
 Drawn = Annotated[float, Meta(ge=0.1, le=1)]  # thinner grains have gaps between samples
 Brightness = Annotated[float, Meta(ge=0.02, le=0.95)]
 Share = tuple[Fraction, Fraction]
+Tilt = Annotated[float, Meta(ge=0, le=70)]
 
 
 class GrainsSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -161,12 +162,17 @@ class BedSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     tiles: Annotated[int, Meta(ge=1, le=MAX_TILES)] = 1
     width_px: Annotated[int, Meta(ge=16, le=8192)] = 256
     height_px: Annotated[int, Meta(ge=16, le=8192)] = 256
+    tilt_deg: tuple[Tilt, Tilt] = (0.0, 0.0)  # of the line of sight from the vertical
     supersample: Annotated[int, Meta(ge=1, le=4)] = 2  # heights and light in a pixel, along a side
     bodies: Annotated[int, Meta(ge=1, le=5000)] = 250  # forms that grains are drawn from
     grains: GrainsSpec = GrainsSpec()
     ground: BedGroundSpec = BedGroundSpec()
     light: BedLightSpec = BedLightSpec()
     photo: BedPhotoSpec = BedPhotoSpec()
+
+    def __post_init__(self) -> None:
+        """Require a range in rising order."""
+        check_range("tilt_deg", self.tilt_deg)
 
 
 def load_bed_spec(path: Path) -> BedSpec:

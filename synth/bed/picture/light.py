@@ -6,7 +6,6 @@ import cv2
 import numpy as np
 
 from synth.arrays import Singles
-from synth.bed.picture.shadows import normals_of, shadow_depth, sky_share
 from synth.spec.bed import BedLightSpec
 
 _BOUNCE = 0.4  # share of the reflected light that reaches what sees no sky
@@ -47,35 +46,39 @@ def draw_light(spec: BedLightSpec, rng: np.random.Generator) -> BedLight:
 
 @dataclass(frozen=True, eq=False)
 class LitRelief:
-    """Light that arrives at a height field's samples."""
+    """Samples of a view with the light that arrives at them."""
 
-    normals: Singles  # (rows, cols, 3)
+    height_px: Singles  # (rows, cols), vertical
+    normals: Singles  # (rows, cols, 3), along columns, rows and towards the camera
+    up: Singles  # (rows, cols), the normals' vertical component
     sunlit: Singles  # (rows, cols), 0 in cast shadow, 1 in the sun; attached shadow is not here
     arriving: Singles  # (rows, cols, 3), on a sample of that slope, 1 on level ground
 
 
-def shine(height_px: Singles, per_px: int, light: BedLight, *, albedo: float) -> LitRelief:
-    """Light on heights; `albedo` is the mean of what reflects it."""
-    normals = normals_of(height_px, per_px)
-    depth = shadow_depth(
-        height_px,
-        per_px,
-        azimuth_rad=light.azimuth_rad,
-        elevation_rad=light.elevation_rad,
-    )
-    sunlit = np.maximum(np.float32(1.0) - depth * np.float32(per_px), np.float32(0.0))
+def sunlit_share(shadow_depth_px: Singles, per_px: int) -> Singles:
+    """Share of the sun that is seen, by the depth in a shadow: edges are a sample wide."""
+    lit = np.maximum(np.float32(1.0) - shadow_depth_px * np.float32(per_px), np.float32(0.0))
+    return np.asarray(lit)
+
+
+def arriving_light(
+    light: BedLight, normals: Singles, *, sunlit: Singles, sky: Singles, albedo: float
+) -> Singles:
+    """Light that arrives, (rows, cols, 3), in red, green and blue.
+
+    The normals' third component is vertical, `sky` the share of the sky that is seen, `albedo` the
+    mean of what reflects the light.
+    """
     sun = light.towards_sun()
     direct = np.maximum(normals @ sun, np.float32(0.0)) * sunlit
     direct *= np.float32((1.0 - light.sky) / max(float(sun[2]), _LOW_SUN))
-    share = sky_share(height_px, per_px)
     above = np.float32(0.55) + np.float32(0.45) * normals[..., 2]
-    ambient = np.float32(light.sky) * cv2.pow(share, _HOLLOW) * above
-    bounce = np.float32(_BOUNCE * albedo * (1.0 - 0.5 * light.sky)) * (np.float32(1.0) - share)
+    ambient = np.float32(light.sky) * cv2.pow(sky, _HOLLOW) * above
+    bounce = np.float32(_BOUNCE * albedo * (1.0 - 0.5 * light.sky)) * (np.float32(1.0) - sky)
     blue = 0.0 if light.overcast else light.warmth
     of_sun = np.array([1.0 + 0.06 * light.warmth, 1.0, 1.0 - 0.12 * light.warmth], np.float32)
     of_sky = np.array([1.0 - 0.12 * blue, 1.0, 1.0 + 0.15 * blue], np.float32)
-    arriving = np.stack(
+    return np.stack(
         [(direct + bounce) * one + ambient * two for one, two in zip(of_sun, of_sky, strict=True)],
         axis=-1,
     )
-    return LitRelief(normals=normals, sunlit=sunlit, arriving=arriving)

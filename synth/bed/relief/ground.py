@@ -144,10 +144,11 @@ def _ripples(
     return np.asarray(np.float32(length_px * rng.uniform(0.025, 0.05)) * height)
 
 
-def fill(height_px: Singles, grain: NDArray[np.int32], ground_px: Singles, level: float) -> None:
+def fill(height_px: Singles, grain: NDArray[np.int32], ground_px: Singles, level: float) -> Singles:
     """Fill a bed in place with sand up to a share of its relief, banked up where stones are.
 
-    The sand has the ground's own roughness; what it covers becomes ground.
+    The sand has the ground's own roughness; what it covers becomes ground. Returned are the
+    heights of the sand, also where it does not reach the surface.
     """
     low, high = np.percentile(height_px[::4, ::4], [2.0, 98.0])
     rows, columns = height_px.shape
@@ -158,3 +159,4 @@ def fill(height_px: Singles, grain: NDArray[np.int32], ground_px: Singles, level
     covered = sand > height_px
     height_px[covered] = sand[covered]
     grain[covered] = 0
+    return sand

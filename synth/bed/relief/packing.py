@@ -100,13 +100,12 @@ def _drop(
 ) -> Footprint:
     middle = field.samples(centre_px)
     shape = field.height_px.shape
-    low = np.floor(middle + field.per_px * ends_px.min(axis=0)).astype(int) - 1
-    high = np.ceil(middle + field.per_px * ends_px.max(axis=0)).astype(int) + 2
-    left, top = max(int(low[0]), 0), max(int(low[1]), 0)
-    right, bottom = min(int(high[0]), shape[1]), min(int(high[1]), shape[0])
+    left, top, right, bottom = window_of(ends_px, middle, field.per_px)
+    left, top = max(left, 0), max(top, 0)
+    right, bottom = min(right, shape[1]), min(bottom, shape[0])
     if left >= right or top >= bottom:
         return Footprint(centre_px, 0.0, _LEVEL, (0, 0), np.zeros((0, 0), dtype=bool))
-    maps = _cut(grain, middle, field.per_px, left=left, top=top, right=right, bottom=bottom)
+    maps = cut_maps(grain, middle, field.per_px, left=left, top=top, right=right, bottom=bottom)
     inside = maps[..., 0] < 1.0
     if not inside.any():
         return Footprint(centre_px, 0.0, _LEVEL, (top, left), inside)
@@ -131,7 +130,17 @@ def _drop(
     return Footprint(centre_px, base, lean, (top, left), inside)
 
 
-def _cut(
+def window_of(ends_px: Floats, middle: Floats, per_px: int) -> tuple[int, int, int, int]:
+    """Samples round a grain: left, top, right and bottom, the latter two excluded.
+
+    `ends_px` (n, 2) are corners of its outline about its middle, which is given in samples.
+    """
+    low = np.floor(middle + per_px * ends_px.min(axis=0)).astype(int) - 1
+    high = np.ceil(middle + per_px * ends_px.max(axis=0)).astype(int) + 2
+    return int(low[0]), int(low[1]), int(high[0]), int(high[1])
+
+
+def cut_maps(
     grain: Grain, middle: Floats, per_px: int, *, left: int, top: int, right: int, bottom: int
 ) -> Singles:
     """Body's maps over a window of the field, (rows, columns, 3)."""

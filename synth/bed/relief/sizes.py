@@ -1,5 +1,7 @@
 """Sizes and forms of a bed's grains."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from synth.arrays import Floats
@@ -8,27 +10,57 @@ from synth.bed.relief.packing import Grain
 from synth.spec.bed import MAX_GRAINS, GrainsSpec
 
 _MANY = 64  # grains drawn at once
+_WIDE, _WIDE_SPREADS = 93.0, 1.5  # percentile of a bed's wide grains; the same in spreads
 _SHUFFLE = 0.9  # how far the order of dropping strays from that of falling width, in ln width
 
 
-def draw_widths_px(spec: GrainsSpec, count: int, rng: np.random.Generator, law: Floats) -> Floats:
-    """Widths of grains, (count,): `law` has the tile's ln median and the spread."""
+@dataclass(frozen=True)
+class GrainLaw:
+    """Sizes and number of a tile's grains."""
+
+    log_median: float  # of the widths in px
+    spread: float  # standard deviation of ln width
+    cover: float  # area of all outlines over that of the ground
+
+    def relief_px(self, spec: GrainsSpec) -> float:
+        """Height of the highest grains over the lowest gaps, roughly."""
+        if spec.distribution == "percentiles":
+            shares, widths = np.array(spec.percentiles).T
+            wide = float(np.exp(np.interp(_WIDE, shares, np.log(widths))))
+        else:
+            wide = float(np.exp(self.log_median + _WIDE_SPREADS * self.spread))
+        return float(np.clip(wide, *spec.width_px)) * (0.5 + 0.5 * min(self.cover, 2.0))
+
+
+def draw_law(spec: GrainsSpec, rng: np.random.Generator) -> GrainLaw:
+    """Law of a tile, drawn from a spec's ranges."""
+    low, high = np.log(spec.median_px)
+    return GrainLaw(
+        log_median=rng.uniform(low, high),
+        spread=rng.uniform(*spec.spread),
+        cover=rng.uniform(*spec.cover),
+    )
+
+
+def draw_widths_px(spec: GrainsSpec, count: int, rng: np.random.Generator, law: GrainLaw) -> Floats:
+    """Widths of grains, (count,)."""
     ends = np.log(spec.width_px)
     if spec.distribution == "percentiles":
         shares, widths = np.array(spec.percentiles).T
         logs = np.interp(rng.uniform(0.0, 100.0, count), shares, np.log(widths))
         return np.asarray(np.exp(logs.clip(*ends)))
-    logs = law[0] + law[1] * rng.standard_normal(count)
+    logs = law.log_median + law.spread * rng.standard_normal(count)
     for _ in range(50):
         beyond = (logs < ends[0]) | (logs > ends[1])
         if not beyond.any():
             break
-        logs[beyond] = law[0] + law[1] * rng.standard_normal(int(beyond.sum()))
+        logs[beyond] = law.log_median + law.spread * rng.standard_normal(int(beyond.sum()))
     return np.asarray(np.exp(logs.clip(*ends)))
 
 
 def draw_grains(
     spec: GrainsSpec,
+    law: GrainLaw,
     library: tuple[GrainBody, ...],
     area_px2: float,
     rng: np.random.Generator,
@@ -37,9 +69,7 @@ def draw_grains(
 
     Wide grains tend to come first: those that fall into the gaps between them are small.
     """
-    low, high = np.log(spec.median_px)
-    law = np.array([rng.uniform(low, high), rng.uniform(*spec.spread)])
-    cover = rng.uniform(*spec.cover)
+    cover = law.cover
     kinds = [str(kind) for kind in rng.permutation(spec.shapes)[: int(rng.integers(1, 4))]]
     stock = [body for body in library if body.kind in kinds] or list(library)
     grains: list[Grain] = []

@@ -5,7 +5,14 @@ import pytest
 
 from synth.bed.relief.bodies import KINDS, REACH, SIDE, GrainBody, make_body
 from synth.bed.relief.packing import Grain, HeightField, pack
-from synth.bed.relief.sizes import draw_grains, draw_widths_px, greatest_caliper, least_caliper
+from synth.bed.relief.sizes import (
+    GrainLaw,
+    draw_grains,
+    draw_law,
+    draw_widths_px,
+    greatest_caliper,
+    least_caliper,
+)
 from synth.spec.bed import GrainsSpec
 
 
@@ -106,7 +113,7 @@ def test_calipers_of_a_rectangle_that_is_turned():
 
 def test_widths_follow_the_lognormal_law():
     spec = GrainsSpec(width_px=(2.0, 2000.0))
-    law = np.array([np.log(30.0), 0.5])
+    law = GrainLaw(log_median=np.log(30.0), spread=0.5, cover=1.0)
     widths = draw_widths_px(spec, 20_000, np.random.default_rng(1), law)
     found = np.percentile(widths, [16, 50, 84])
     assert found == pytest.approx([30.0 * np.exp(-0.5), 30.0, 30.0 * np.exp(0.5)], rel=0.03)
@@ -125,7 +132,8 @@ def test_widths_follow_given_percentiles_and_limits():
 def test_drawn_grains_have_the_width_that_was_drawn_and_fill_the_cover():
     spec = GrainsSpec(median_px=(25.0, 25.0), spread=(0.0, 0.0), cover=(0.8, 0.8))
     library = tuple(make_body(kind, np.random.default_rng(2)) for kind in KINDS)
-    grains = draw_grains(spec, library, 90_000.0, np.random.default_rng(4))
+    rng = np.random.default_rng(4)
+    grains = draw_grains(spec, draw_law(spec, rng), library, 90_000.0, rng)
     widths = [least_caliper(grain.body.hull @ grain.stretch.T) for grain in grains]
     assert widths == pytest.approx([25.0] * len(grains))
     area = sum(grain.body.area * abs(np.linalg.det(grain.stretch)) for grain in grains)

@@ -1,0 +1,1 @@
+"""Views of a packed bed: from straight above, and obliquely."""

@@ -40,7 +40,7 @@ install() { # NAME PYTHON [PIP ARGUMENTS...]
     local name=$1 python=$2
     shift 2
     quiet "$python" -m venv "$WORK/$name"
-    quiet "$WORK/$name/bin/python" -m pip install --disable-pip-version-check "$@" \
+    quiet "$WORK/$name/bin/python" -m pip install --no-compile --disable-pip-version-check "$@" \
         "$WORK"/dist/rockshape-*.whl pytest hypothesis
     quiet "$WORK/$name/bin/python" -m pip check
 }

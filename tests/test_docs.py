@@ -39,7 +39,7 @@ def script(request, tmp_path) -> Path:
 
 @pytest.mark.parametrize("script", SCRIPTS, ids=[page.name for page, _ in SCRIPTS], indirect=True)
 def test_the_python_of_a_page_runs(script):
-    # `make demo` runs suite `ci`, and tools/check_wheel.sh the README's very lines: a small one here
+    # `make demo` runs suite `ci`, and tools/check_wheel.sh the very lines: here it is a small one
     text = script.read_text(encoding="utf-8")
     script.write_text(text.replace(SUITE, SMALL_SUITE), encoding="utf-8")
     done = _run([sys.executable, script], folder=ROOT)

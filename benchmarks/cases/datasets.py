@@ -106,7 +106,7 @@ PROCESSES_CASE = Case(
     run=processes,
     smallest={
         "scenes": 2,
-        "rest": "site = 'plain'\n[views]\ncount = 1\n[camera]\npreset = 'imp'\n[rocks]\ncount = 2\n",
+        "rest": "site = 'plain'\nviews.count = 1\ncamera.preset = 'imp'\nrocks.count = 2\n",
     },
     peer="the wall time of one process; it needs an idle machine",
 )

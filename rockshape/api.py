@@ -28,7 +28,8 @@ from rockshape.method import Method
 from rockshape.numerics.array_argument import array_argument
 from rockshape.observation import Observation
 from rockshape.pipeline import measure as measure_observation
-from rockshape.point_grid.points import PointReading, RangeKind, points_from
+from rockshape.point_grid.points import PointReading, points_from
+from rockshape.point_grid.range_kinds import UNNAMED, RangeKind
 from rockshape.point_grid.units import RangeScale, parse_unit
 from rockshape.rock.given_labels import instances_of
 from rockshape.rock.instances import Instances
@@ -247,9 +248,8 @@ def _turning(picture: ImageContent) -> tuple[str, ...]:
 
 def _points(range_m: NDArray[np.generic], camera: Camera | None, unit: str | None) -> PointReading:
     """Points (rows, cols, 3), a fresh array; one with any part unknown is unknown whole."""
-    by_dimensions: dict[int, RangeKind] = {2: "depth", 3: "xyz"}
-    kind = by_dimensions.get(range_m.ndim)
-    if kind is None or (kind == "xyz" and range_m.shape[2] != 3):
+    kind = UNNAMED.get(range_m.shape[2:]) if range_m.ndim > 1 else None
+    if kind is None:
         raise InputError(
             f"range_m: expected (rows, cols) or (rows, cols, 3), found {range_m.shape}"
         )

@@ -14,7 +14,7 @@ from rockshape.io.registry import IMAGES, LABELS, TABLES
 from rockshape.measurement import Measurement, to_frame
 from rockshape.method import find_method
 from rockshape.pipeline import measure
-from rockshape.point_grid.points import RangeKind
+from rockshape.point_grid.range_kinds import RangeKind
 from rockshape.report.overlay import overlay
 from rockshape.rock.pieces import Pieces
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from rockshape.camera.camera import Camera
     from rockshape.camera.lens import Lens
     from rockshape.io.files import InputFile
-    from rockshape.point_grid.points import RangeKind
+    from rockshape.point_grid.range_kinds import RangeKind
     from rockshape.rock.instances import Instances
     from rockshape.rock.pieces import Pieces
 

@@ -19,7 +19,8 @@ from rockshape.io.format import ImageContent, ImageInfo
 from rockshape.io.guard import guard
 from rockshape.io.pixels import to_grey, to_levels, to_unit
 from rockshape.io.registry import CAMERAS, IMAGES, LABELS, RANGES
-from rockshape.point_grid.points import PointReading, RangeKind
+from rockshape.point_grid.points import PointReading
+from rockshape.point_grid.range_kinds import RangeKind
 from rockshape.point_grid.units import RangeScale, parse_unit
 from rockshape.rock.instances import Instances
 from rockshape.rock.pieces import Pieces

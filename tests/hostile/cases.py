@@ -9,7 +9,7 @@ from typing import NamedTuple
 import msgspec
 import numpy as np
 
-from rockshape.point_grid.points import KINDS
+from rockshape.point_grid.range_kinds import KINDS
 from synth.spec import SceneSpec
 from tests.hostile import mutations
 from tests.hostile.scene import CAMERA, image

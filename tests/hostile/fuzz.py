@@ -26,7 +26,7 @@ import rockshape
 from rockshape.camera.lens import DisparityScale, Lens
 from rockshape.errors import InputError
 from rockshape.io import read_image, read_labels, read_lens, read_pair, read_points
-from rockshape.point_grid.points import RangeKind
+from rockshape.point_grid.range_kinds import RangeKind
 from tests.hostile.judge import GRACE_S, LIMIT_S, MAX_GROWTH_BYTES, Stopwatch, peak_bytes
 from tests.hostile.scene import CAMERA, SHAPE, image
 from tests.hostile.seed_files import ranges

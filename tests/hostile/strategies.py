@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from rockshape.point_grid.points import KINDS
+from rockshape.point_grid.range_kinds import KINDS
 from tests.hostile.mutations import LENGTHS, MUTATIONS, retyped_json
 from tests.hostile.seed_files import labels as label_files
 from tests.hostile.seeds import Seed, readable_formats, seeds, seeds_of

@@ -5,7 +5,8 @@ import numpy as np
 from rockshape.camera.lens import Lens
 from rockshape.errors import InputError, unknown_name
 from rockshape.io.format import ImageInfo, RangeRaster
-from rockshape.point_grid.points import KINDS, PointReading, RangeKind, points_from
+from rockshape.point_grid.points import PointReading, points_from
+from rockshape.point_grid.range_kinds import KINDS, QUANTITIES, UNNAMED, RangeKind
 from rockshape.point_grid.units import RangeScale, parse_unit
 
 
@@ -33,7 +34,7 @@ def points_of(
         raise InputError(f"camera: expected {info.shape} as the image has, found {camera.shape}")
     if values.dtype.kind not in "fiu":
         raise InputError(f"expected numbers, found {values.dtype}")
-    kind = _kind(raster, values.ndim, kind)
+    kind = _kind(raster, values.shape[2:], kind)
     return points_from(
         values,
         kind=kind,
@@ -43,14 +44,14 @@ def points_of(
     )
 
 
-def _kind(raster: RangeRaster, dimensions: int, asked: RangeKind | None) -> RangeKind:
-    by_shape: RangeKind = "depth" if dimensions == 2 else "xyz"
+def _kind(raster: RangeRaster, pixel_shape: tuple[int, ...], asked: RangeKind | None) -> RangeKind:
     if asked is not None and asked not in KINDS:
         raise unknown_name("range_kind (--range-kind)", asked, KINDS)
-    chosen = asked or raster.kind or by_shape
-    if (chosen == "xyz") != (dimensions == 3):
-        needed = "three values a pixel" if chosen == "xyz" else "one value a pixel"
-        raise InputError(f"--range-kind {chosen}: expected {needed}, found {raster.values.shape}")
+    chosen = asked or raster.kind or UNNAMED[pixel_shape]
+    needed = QUANTITIES[chosen].pixel_shape
+    if pixel_shape != needed:
+        words = "three values a pixel" if needed else "one value a pixel"
+        raise InputError(f"--range-kind {chosen}: expected {words}, found {raster.values.shape}")
     return chosen
 
 
@@ -60,7 +61,7 @@ def _scale(
     """Scale of the values; a whole number is a count of steps, whatever the file type."""
     if unit is not None:
         return parse_unit(unit)
-    if kind == "disparity":  # in px, the baseline in metres
+    if not QUANTITIES[kind].is_length:  # in px, the baseline in metres
         return RangeScale()
     if raster.unit == "m" and not np.issubdtype(raster.values.dtype, np.integer):
         return RangeScale()

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from rockshape.errors import InputError
 from rockshape.io.decoding.pds import image_of, is_pds3, is_pds4
 from rockshape.io.format import ImageInfo, RangeFormat, RangeRaster
-from rockshape.point_grid.points import RangeKind
+from rockshape.point_grid.range_kinds import RangeKind
 
 if TYPE_CHECKING:
     from rockshape.io.files import InputFile

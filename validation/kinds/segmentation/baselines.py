@@ -1,5 +1,7 @@
 """What anyone would try first: a fixed height, Otsu's threshold, a plain watershed."""
 
+from collections.abc import Callable, Mapping
+
 import cv2
 import numpy as np
 import scipy.ndimage as ndi
@@ -55,3 +57,10 @@ def _parts(mask: NDArray[np.bool_]) -> Labels:
 
 def _large(labels: Labels) -> Labels:
     return np.where((np.bincount(labels.ravel()) >= MIN_PIXELS)[labels], labels, 0)
+
+
+BASELINES: Mapping[str, Callable[[Observation], Labels]] = {
+    "height": fixed_height,
+    "otsu": otsu,
+    "watershed": plain_watershed,
+}

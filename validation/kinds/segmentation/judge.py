@@ -7,6 +7,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from validation.kinds.segmentation.baselines import BASELINES
+from validation.kinds.segmentation.sources import source_of, split_series
 from validation.kinds.segmentation.spec import SegmentationExperiment
 from validation.peers import MeasureSpec
 from validation.scores.expectations import Claim
@@ -156,8 +158,9 @@ def _binned() -> list[tuple[str, str, str, str, Better, Compute]]:
 
 
 def _has_ground(series: str) -> bool:
-    way, _, source = series.partition("-")
-    return way in ("paper", "robust") and source != "none"
+    """Whether the way fits a ground, as methods do and baselines do not, and has range for it."""
+    way, _ = split_series(series)
+    return way not in BASELINES and source_of(series).has_range
 
 
 def claims(

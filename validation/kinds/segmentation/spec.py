@@ -6,6 +6,7 @@ import msgspec
 from msgspec import Meta
 
 from synth.spec import SceneSpec
+from validation.kinds.segmentation.sources import source_of, split_series
 from validation.suite.experiment import Experiment
 from validation.suite.scene import check_scene_is_single, with_renderer
 
@@ -37,8 +38,8 @@ class SegmentationExperiment(Experiment, frozen=True, kw_only=True, tag="segment
         """Leave one place for seed and number of scenes, and ask for range that the scene has."""
         check_scene_is_single(self.scene)
         for series in self.series:
-            source = series.rpartition("-")[2]
-            if source in ("stereo", "sgm") and source != self.scene.noise.kind:
+            _, source = split_series(series)
+            if source_of(series).is_sensed and source != self.scene.noise.kind:
                 raise ValueError(
                     f"series: {series!r} needs scene.noise.kind {source!r}, "
                     f"found {self.scene.noise.kind!r}"

@@ -16,8 +16,9 @@ from synth.camera.camera import PRESETS
 from validation.arrays import Floats, Labels
 from validation.execution.units import Unit, UnitResult
 from validation.execution.views import dataset_views
-from validation.kinds.segmentation.baselines import fixed_height, otsu, plain_watershed
+from validation.kinds.segmentation.baselines import BASELINES
 from validation.kinds.segmentation.object_matching import Rule, judge
+from validation.kinds.segmentation.sources import source_of, split_series
 from validation.kinds.segmentation.spec import SegmentationExperiment
 from validation.kinds.segmentation.truth import ViewTruth, range_counts, view_truth
 from validation.records.join import RecordKey
@@ -48,14 +49,14 @@ def run(unit: Unit[SegmentationExperiment]) -> UnitResult:
     for view in views:
         truth = view_truth(view, experiment=experiment)
         for series in experiment.series:
-            way, _, source = series.partition("-")
-            points = {"none": None, "exact": view.exact_m}.get(source, view.points_m)
-            counts = truth.shown
-            if source in ("stereo", "sgm"):
+            way, _ = split_series(series)
+            source, counts = source_of(series), truth.shown
+            if source.is_sensed:
                 counts = range_counts(
                     truth, view, baseline_m=_baseline_m(experiment), experiment=experiment
                 )
-            made = _segment(way, view.observation(points), truth, experiment)
+            observation = view.observation(source.points_m(view))
+            made = _segment(way, observation, truth, experiment)
             place = RecordKey(
                 experiment.name, "segmentation", series, scene, spec.seed, view.number, ""
             )
@@ -75,9 +76,8 @@ def _baseline_m(experiment: SegmentationExperiment) -> float:
 def _segment(
     way: str, observation: Observation, truth: ViewTruth, experiment: SegmentationExperiment
 ) -> Segmented:
-    baselines = {"height": fixed_height, "otsu": otsu, "watershed": plain_watershed}
-    if way in baselines:
-        return Segmented(baselines[way](observation), {}, float("nan"))
+    if way in BASELINES:
+        return Segmented(BASELINES[way](observation), {}, float("nan"))
     made = find_method(way).segment(observation)
     outlines = {one.number: one.outline.points_px for one in made.found if one.outline is not None}
     return Segmented(

@@ -8,7 +8,7 @@ from suites import chosen_suite
 
 import validation
 from rockshape.method import methods
-from validation.mutations import MUTATIONS, prepare_bench
+from validation.mutations import MUTATIONS, made_views, prepare_bench
 
 CAUSES = {
     "view": "view",
@@ -89,8 +89,9 @@ def _cell(score: Any, factor: float, digits: int) -> str:
 def mutations(*, preset: str = "", scenes: int = 2, count: int = 99) -> list[Table]:
     """Put errors in on purpose and name the gates of the suite `ci` that fail under each."""
     suite, tables = chosen_suite("ci", preset=preset), []
+    views = made_views(suite, scenes=scenes)
     for method in ("paper", "robust"):
-        bench = prepare_bench(suite, scenes=scenes, method=method)
+        bench = prepare_bench(suite, scenes=scenes, method=method, views=views)
         control = bench.failing(bench.records)
         bitten: set[str] = set()
         rows = []

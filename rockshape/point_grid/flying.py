@@ -37,20 +37,21 @@ def _bend(inverse: Floats) -> float:
 
 
 def _between(inverse: Floats, least: Floats) -> Mask:
-    """Flying pixels along rows."""
+    """Flying pixels along rows: a run of steep steps one way, its ends alone."""
     step = np.diff(inverse, axis=1)
     steep = np.abs(step) > np.fmax(least[:, 1:], least[:, :-1])
     found = np.zeros(inverse.shape, dtype=bool)
+    row, first = np.nonzero(steep[:, 1:-2])  # the first step of a run; it has one before it
+    first += 1
+    alone = ALONE * np.abs(step[row, first - 1]) < np.abs(step[row, first])
+    row, first = row[alone], first[alone]
     for width in range(1, WIDEST_PX + 1):
-        last = step.shape[1] - width - 1  # of the first steps of a run, the second has one before
-        if last < 1:
-            break
-        runs = [step[:, 1 + k : last + k] for k in range(width + 1)]
-        clear = np.ones(runs[0].shape, dtype=bool)
-        for k, run in enumerate(runs):
-            clear &= steep[:, 1 + k : last + k] & (run * runs[0] > 0)
-        clear &= ALONE * np.abs(step[:, : last - 1]) < np.abs(runs[0])
-        clear &= ALONE * np.abs(step[:, width + 2 : last + width + 1]) < np.abs(runs[-1])
-        for k in range(width):
-            found[:, 2 + k : last + 1 + k] |= clear
+        inside = first + width < step.shape[1] - 1  # the last step has one after it
+        row, first = row[inside], first[inside]
+        last = first + width
+        along = steep[row, last] & (step[row, last] * step[row, first] > 0)
+        row, first, last = row[along], first[along], last[along]
+        alone = ALONE * np.abs(step[row, last + 1]) < np.abs(step[row, last])
+        for k in range(1, width + 1):
+            found[row[alone], first[alone] + k] = True
     return found

@@ -2,14 +2,21 @@
 
 import pytest
 
-from validation.mutations import MUTATIONS, part_of, prepare_bench
+from validation.mutations import MUTATIONS, made_views, part_of, prepare_bench
 from validation.suite.suite import load_suite
+
+SCENES = 2  # enough for the gates of suite `ci` to pass without an error
+
+
+@pytest.fixture(scope="module")
+def views():
+    """Return the views that all methods measure."""
+    return made_views(load_suite("ci"), scenes=SCENES)
 
 
 @pytest.mark.parametrize("method", MUTATIONS)
-def test_every_error_is_caught_and_every_gate_catches_one(method) -> None:
-    # Two scenes of each experiment are enough for the gates of suite `ci` to pass without an error.
-    bench = prepare_bench(load_suite("ci"), scenes=2, method=method)
+def test_every_error_is_caught_and_every_gate_catches_one(method, views) -> None:
+    bench = prepare_bench(load_suite("ci"), scenes=SCENES, method=method, views=views)
     assert bench.failing(bench.records) == ()
     anew = {name for each in MUTATIONS[method] if each.measures_anew for name in each.experiments}
     for of_rocks in anew - {"shapes"}:

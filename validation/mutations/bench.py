@@ -1,6 +1,6 @@
 """Mutation bench: views made once, measured anew under each mutation, held to the gates."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from unittest.mock import patch
@@ -119,13 +119,23 @@ def part_of(suite: Suite, *, scenes: int, method: str) -> Suite:
     return msgspec.structs.replace(small, gates=gates_on(suite.gates, score_names(small)))
 
 
-def prepare_bench(suite: Suite, *, scenes: int, method: str) -> Bench:
-    """Make the first scenes of each experiment and measure them by one method."""
+def made_views(suite: Suite, *, scenes: int) -> tuple[ViewCase, ...]:
+    """Views of the first scenes of a suite's experiments, for the benches of all methods."""
+    experiments = tuple(experiment.first(scenes) for experiment in suite.experiments)
+    small = msgspec.structs.replace(suite, experiments=experiments)
+    return tuple(view for unit in units_of(small) for view in views_of(unit))
+
+
+def prepare_bench(
+    suite: Suite, *, scenes: int, method: str, views: Sequence[ViewCase] | None = None
+) -> Bench:
+    """Measure the first scenes of each experiment by one method; they are made unless given."""
     small = part_of(suite, scenes=scenes, method=method)
-    views = [
+    names = {experiment.name for experiment in small.experiments}
+    measured = tuple(
         (view, measure(view.observation, method=method, labels=view.given))
-        for unit in units_of(small)
-        for view in views_of(unit)
-    ]
-    records = [_joined(view, found, to_frame(found)) for view, found in views]
-    return Bench(small, tuple(views), pd.concat(records, ignore_index=True))
+        for view in (made_views(small, scenes=scenes) if views is None else views)
+        if view.place.experiment in names
+    )
+    records = [_joined(view, found, to_frame(found)) for view, found in measured]
+    return Bench(small, measured, pd.concat(records, ignore_index=True))

@@ -1,5 +1,6 @@
 """Largest inscribed ball of a convex body given by half-spaces, in any dimension."""
 
+from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations
 
@@ -12,16 +13,33 @@ from synth.arrays import Floats
 _MAX_TRIED = 4000  # sets of touching faces; beyond, linear programming is faster
 _SLACK = 1e-10  # of the body's size: a face counts as respected
 _SINGULAR = 1e-9
+_PULL, _ROOM = 1e-2, 1e-3  # least dual of a face that holds the ball; least room to others, of size
 
 
-def largest_ball(normals: Floats, offsets_m: Floats) -> tuple[Floats, float]:
-    """Largest ball, its centre (d,) and radius, in {x : n·x <= h}, n of length 1.
+@dataclass(frozen=True, eq=False)
+class InscribedBall:
+    """Largest ball in a body."""
+
+    centre_m: Floats  # (d,)
+    radius_m: float
+    touching: NDArray[np.int64] | None  # the d + 1 faces that hold it, if they are known
+
+
+def largest_ball(
+    normals: Floats, offsets_m: Floats, *, likely: NDArray[np.int64] | None = None
+) -> InscribedBall:
+    """Largest ball in {x : n·x <= h}, n of length 1.
 
     It is the linear programme max ρ under n·x + ρ <= h, whose optimum is a vertex: some d + 1
     faces touch the ball. With few faces all such sets are solved at once and the best that
     respects the others is taken; with many a solver is asked. The centre need not be unique.
+    `likely` are the faces that touch it in a similar body; they are tried first.
     """
     rows = np.column_stack([normals, np.ones(len(normals))])
+    if likely is not None:
+        held = _held_by(rows, offsets_m, likely)
+        if held is not None:
+            return held
     tried = _sets(len(rows), rows.shape[1])
     if tried is None:
         return _by_solver(rows, offsets_m)
@@ -32,8 +50,30 @@ def largest_ball(normals: Floats, offsets_m: Floats) -> tuple[Floats, float]:
     respected = (found @ rows.T <= offsets_m + _SLACK * size_m).all(axis=1)
     if not respected.any():
         return _by_solver(rows, offsets_m)
-    best = found[respected][np.argmax(found[respected][:, -1])]
-    return np.asarray(best[:-1]), float(best[-1])
+    among = np.flatnonzero(respected)
+    best = among[np.argmax(found[respected][:, -1])]
+    return _ball(found[best], tried[regular][best])
+
+
+def _held_by(rows: Floats, offsets_m: Floats, faces: NDArray[np.int64]) -> InscribedBall | None:
+    """Ball that touches some faces, if it is clear that no other ball is as large.
+
+    The faces hold it when the programme's dual is positive; it must be so by a margin, and so must
+    the room to all other faces, so that rounding cannot let another set of faces win.
+    """
+    system: Floats = rows[faces]
+    pull = np.linalg.solve(system.T, np.eye(len(faces))[-1])
+    if not pull.min() > _PULL:
+        return None
+    found = np.asarray(np.linalg.solve(system, offsets_m[faces][:, None])[:, 0], dtype=np.float64)
+    room_m = offsets_m - rows @ found
+    room_m[faces] = np.inf
+    clear = room_m.min() > _ROOM * float(np.abs(offsets_m).max())
+    return _ball(found, faces) if clear else None
+
+
+def _ball(found: Floats, touching: NDArray[np.int64] | None) -> InscribedBall:
+    return InscribedBall(np.asarray(found[:-1]), float(found[-1]), touching)
 
 
 @lru_cache(maxsize=32)
@@ -49,7 +89,7 @@ def _sets(faces: int, size: int) -> NDArray[np.int64] | None:
     return sets
 
 
-def _by_solver(rows: Floats, offsets_m: Floats) -> tuple[Floats, float]:
+def _by_solver(rows: Floats, offsets_m: Floats) -> InscribedBall:
     free = rows.shape[1] - 1
     found = linprog(
         [0.0] * free + [-1.0],
@@ -57,4 +97,4 @@ def _by_solver(rows: Floats, offsets_m: Floats) -> tuple[Floats, float]:
         b_ub=offsets_m,
         bounds=[(None, None)] * free + [(0, None)],
     )
-    return np.asarray(found.x[:-1]), float(found.x[-1])
+    return _ball(found.x, None)

@@ -6,6 +6,7 @@ from itertools import pairwise
 import numpy as np
 
 from synth.arrays import Floats
+from synth.geometry.vectors import cross, length, unit_rows
 from synth.rocks.polyhedron import Polyhedron, angle_rad
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)  # exact to rounding on arcs up to π
@@ -81,7 +82,7 @@ class _Sums:
         """Add a flat convex polygon (n, 3), a fan of triangles: x·n is its offset."""
         one, others = corners_m[0], corners_m[1:]
         for two, three in pairwise(others):
-            weight = offset_m * float(normal @ np.cross(two - one, three - one)) / 2.0
+            weight = offset_m * float(normal @ cross(two - one, three - one)) / 2.0
             total = one + two + three
             squares = sum(np.outer(corner, corner) for corner in (one, two, three, total))
             self.zeroth += weight
@@ -93,7 +94,7 @@ class _Sums:
         arms, steps_rad = edge.arms, edge.steps_rad
         along = (_NODES[:, None] + 1.0) / 2.0
         core_m = ends_m[0] + along * (ends_m[1] - ends_m[0])
-        length_m = float(np.linalg.norm(ends_m[1] - ends_m[0]))
+        length_m = length(ends_m[1] - ends_m[0])
         points_m = (core_m[:, None] + radius_m * arms).reshape(-1, 3)
         steps_m2 = np.outer(length_m * _WEIGHTS / 2.0, radius_m * steps_rad).ravel()
         weights = steps_m2 * np.tile(arms @ ends_m[0] + radius_m, len(_NODES))
@@ -129,7 +130,7 @@ def _cap(polyhedron: Polyhedron, edges: list[_Edge], vertex: int) -> _Cap:
         v, w = edge.ends
         far = w if vertex == v else v
         pole = polyhedron.vertices_m[far] - polyhedron.vertices_m[vertex]
-        pole /= np.linalg.norm(pole)
+        pole /= length(pole)
         arms, steps_rad = edge.arms, edge.steps_rad
         line += steps_rad.sum() * pole
         mixed += np.outer(steps_rad @ arms, pole)
@@ -153,8 +154,7 @@ def _face_angles_rad(polyhedron: Polyhedron, vertex: int) -> list[float]:
             place = loop.index(vertex)
             ends = loop[place - 1], loop[(place + 1) % len(loop)]
             arms = polyhedron.vertices_m[list(ends)] - polyhedron.vertices_m[vertex]
-            arms /= np.linalg.norm(arms, axis=1, keepdims=True)
-            angles_rad.append(angle_rad(arms[0], arms[1]))
+            angles_rad.append(angle_rad(*unit_rows(arms)))
     return angles_rad
 
 

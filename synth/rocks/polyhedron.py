@@ -1,6 +1,5 @@
 """Convex polyhedra as intersections of half-spaces, with their exact V, S and M."""
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,7 +8,8 @@ from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 
 from synth.arrays import Floats
 from synth.errors import SpecError
-from synth.geometry.inscribed_ball import largest_ball
+from synth.geometry.inscribed_ball import InscribedBall, largest_ball
+from synth.geometry.vectors import cross, length, unit_rows
 
 _DRAWS = 12  # candidates for each cut; the one farthest from the cuts so far is kept
 _ATTEMPTS = 100
@@ -48,7 +48,7 @@ class Polyhedron:
         return Polyhedron(
             vertices_m=self.vertices_m @ matrix.T,
             loops=self.loops,
-            normals=normals / np.linalg.norm(normals, axis=1, keepdims=True),
+            normals=unit_rows(normals),
         )
 
     def shifted(self, shift_m: Floats) -> "Polyhedron":
@@ -120,8 +120,8 @@ def functionals(polyhedron: Polyhedron) -> Functionals:
     areas_m2 = np.array([_face_area_m2(polyhedron, face) for face in range(len(polyhedron.loops))])
     bend_m = 0.0
     for v, w, f, g in polyhedron.edges():
-        length_m = np.linalg.norm(polyhedron.vertices_m[w] - polyhedron.vertices_m[v])
-        bend_m += float(length_m) * angle_rad(polyhedron.normals[f], polyhedron.normals[g])
+        length_m = length(polyhedron.vertices_m[w] - polyhedron.vertices_m[v])
+        bend_m += length_m * angle_rad(polyhedron.normals[f], polyhedron.normals[g])
     return Functionals(
         volume_m3=float(polyhedron.offsets_m() @ areas_m2 / 3.0),
         area_m2=float(areas_m2.sum()),
@@ -129,16 +129,16 @@ def functionals(polyhedron: Polyhedron) -> Functionals:
     )
 
 
-def inradius_m(polyhedron: Polyhedron) -> float:
-    """Radius of a largest ball inside."""
-    return largest_ball(polyhedron.normals, polyhedron.offsets_m())[1]
+def inscribed_ball(
+    polyhedron: Polyhedron, *, likely: NDArray[np.int64] | None = None
+) -> InscribedBall:
+    """Largest ball inside; `likely` are the faces that touch it in a similar polyhedron."""
+    return largest_ball(polyhedron.normals, polyhedron.offsets_m(), likely=likely)
 
 
 def angle_rad(first: Floats, second: Floats) -> float:
     """Angle between two unit vectors, accurate when it is small."""
-    (a, b, c), (x, y, z) = first.tolist(), second.tolist()
-    across = np.array([b * z - c * y, c * x - a * z, a * y - b * x])
-    return float(np.arctan2(math.sqrt(across @ across), first @ second))
+    return float(np.arctan2(length(cross(first, second)), first @ second))
 
 
 def _surround_origin(normals: Floats) -> bool:
@@ -154,7 +154,7 @@ def spread_normals(count: int, rng: np.random.Generator) -> Floats:
     chosen = np.empty((count, 3))
     for index in range(count):
         candidates = rng.standard_normal((_DRAWS, 3))
-        candidates /= np.linalg.norm(candidates, axis=1, keepdims=True)
+        candidates = unit_rows(candidates)
         nearest = (candidates @ chosen[:index].T).max(axis=1, initial=-1.0)
         chosen[index] = candidates[np.argmin(nearest)]
     return chosen
@@ -172,8 +172,8 @@ def _distinct(points_m: Floats, *, tolerance_m: float) -> Floats:
 def _loop(vertices_m: Floats, members: NDArray[np.intp], normal: Floats) -> tuple[int, ...]:
     """Convex face's vertices in order round its normal."""
     arms = vertices_m[members] - vertices_m[members].mean(axis=0)
-    across = np.cross(normal, arms[0])
-    turn_rad = np.arctan2(arms @ across, arms @ np.cross(across, normal))
+    across = cross(normal, arms[0])
+    turn_rad = np.arctan2(arms @ across, arms @ cross(across, normal))
     return tuple(int(member) for member in members[np.argsort(turn_rad)])
 
 

@@ -11,7 +11,7 @@ from synth.rocks.polyhedron import (
     Polyhedron,
     cuboid,
     functionals,
-    inradius_m,
+    inscribed_ball,
 )
 from synth.rocks.record import RockModel
 from synth.rocks.rounding import rounded_area_m2, rounded_mesh, rounded_volume_m3
@@ -40,9 +40,10 @@ def hold_axes(
     Raises:
         UnsettledError: the smallest box keeps changing; another P is wanted.
     """
-    body = polyhedron
+    body, ball = polyhedron, None
     for _ in range(_ROUNDS):
-        radius_m = rounding * inradius_m(body)
+        ball = inscribed_ball(body, likely=None if ball is None else ball.touching)
+        radius_m = rounding * ball.radius_m
         box = smallest_box(body.vertices_m, margin_m=radius_m)
         body = body.shifted(-box.centre_m).mapped(box.axes)
         if np.abs(half_axes_m / box.half_sides_m - 1.0).max() < _HELD_WITHIN:
@@ -50,7 +51,8 @@ def hold_axes(
         for _ in range(_STEPS):
             stretch = (half_axes_m - radius_m) / (box.half_sides_m - radius_m)
             body = body.mapped(np.diag(np.clip(stretch, 0.5, 2.0)))
-            radius_m = rounding * inradius_m(body)
+            ball = inscribed_ball(body, likely=ball.touching)
+            radius_m = rounding * ball.radius_m
             box = nearby_box(body.vertices_m, margin_m=radius_m)
             body = body.shifted(-box.centre_m).mapped(box.axes)
             if np.abs(half_axes_m / box.half_sides_m - 1.0).max() < _SETTLED_WITHIN:
@@ -87,7 +89,7 @@ def _rock(
 ) -> RockModel:
     """Record of P ⊕ B_r, its centroid at the origin."""
     mesh = rounded_mesh(body, radius_m)
-    inside_m = inradius_m(body)
+    inside_m = inscribed_ball(body).radius_m
     measured = functionals(body)
     truth = Truth(
         half_axes_box_m=box_m,

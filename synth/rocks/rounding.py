@@ -4,6 +4,7 @@ import numpy as np
 
 from synth.arrays import Floats, Ints
 from synth.geometry.mesh import Mesh
+from synth.geometry.vectors import cross, length, unit_rows
 from synth.rocks.polyhedron import Functionals, Polyhedron, angle_rad
 
 _SAG_M = 5e-5  # the mesh stays this near the true surface: half a step of 0.1 mm depth
@@ -86,7 +87,7 @@ class _Builder:
     def _add_patch(self, vertex: int, faces: list[int], loop: Ints, rim: Floats) -> None:
         """Add a spherical polygon with the normals of its rim: rings that shrink to its middle."""
         middle = self._body.normals[faces].sum(axis=0)
-        middle /= np.linalg.norm(middle)
+        middle /= length(middle)
         reach_rad = max(angle_rad(middle, normal) for normal in self._body.normals[faces])
         rings = max(1, int(np.ceil(reach_rad / self._step_rad)))
         share = (np.arange(1, rings) / rings)[:, None, None]
@@ -113,7 +114,7 @@ class _Builder:
 
     def _add(self, vertex: int, directions: Floats) -> Ints:
         """Add mesh vertices round a vertex of the polyhedron; return their indices."""
-        self._normals.append(directions / np.linalg.norm(directions, axis=1, keepdims=True))
+        self._normals.append(unit_rows(directions))
         self._owners.append(np.full(len(directions), vertex))
         added = np.arange(self._count, self._count + len(directions))
         self._count += len(directions)
@@ -143,8 +144,9 @@ class _Builder:
         """Faces that meet at a vertex, anticlockwise seen from outside."""
         faces = [face for face, loop in enumerate(self._body.loops) if vertex in loop]
         normals = self._body.normals[faces]
-        middle = normals.sum(axis=0) / np.linalg.norm(normals.sum(axis=0))
+        middle = normals.sum(axis=0)
+        middle /= length(middle)
         arms = normals - np.outer(normals @ middle, middle)
-        across = np.cross(middle, arms[0])
-        turn_rad = np.arctan2(arms @ across, arms @ np.cross(across, middle))
+        across = cross(middle, arms[0])
+        turn_rad = np.arctan2(arms @ across, arms @ cross(across, middle))
         return [faces[index] for index in np.argsort(turn_rad)]

@@ -47,8 +47,25 @@ def test_largest_ball_two_ways():
     for seed in range(5):
         body = tangent_cuts(HALF_AXES_M, cuts=12, rng=np.random.default_rng(seed))
         rows = np.column_stack([body.normals, np.ones(len(body.normals))])
-        expected = _by_solver(rows, body.offsets_m())[1]
-        assert largest_ball(body.normals, body.offsets_m())[1] == pytest.approx(expected, rel=1e-8)
+        expected = _by_solver(rows, body.offsets_m()).radius_m
+        assert largest_ball(body.normals, body.offsets_m()).radius_m == pytest.approx(
+            expected, rel=1e-8
+        )
+
+
+def test_a_likely_set_of_faces_changes_no_bit_of_the_largest_ball():
+    taken = 0
+    for seed in range(30):
+        rng = np.random.default_rng(seed)
+        body = tangent_cuts(HALF_AXES_M, cuts=int(rng.integers(9, 20)), rng=rng)
+        before = largest_ball(body.normals, body.offsets_m())
+        near = body.mapped(np.diag(rng.uniform(0.7, 1.4, 3)))
+        afresh = largest_ball(near.normals, near.offsets_m())
+        warm = largest_ball(near.normals, near.offsets_m(), likely=before.touching)
+        assert warm.radius_m == afresh.radius_m
+        assert (warm.centre_m == afresh.centre_m).all()
+        taken += warm.touching is before.touching
+    assert taken > 5
 
 
 def test_sphericity_series_holds_the_roundness():

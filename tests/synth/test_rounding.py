@@ -8,7 +8,13 @@ from hypothesis import strategies as st
 
 from synth.errors import SpecError
 from synth.geometry.mesh import area_m2, volume_m3
-from synth.rocks.polyhedron import cuboid, from_half_spaces, functionals, inradius_m, tangent_cuts
+from synth.rocks.polyhedron import (
+    cuboid,
+    from_half_spaces,
+    functionals,
+    inscribed_ball,
+    tangent_cuts,
+)
 from synth.rocks.rounded import rounded_box
 from synth.rocks.rounding import rounded_area_m2, rounded_mesh, rounded_volume_m3
 
@@ -35,7 +41,7 @@ def test_tiny_core_is_a_ball():
 @given(seed=st.integers(0, 10_000), share=st.floats(0.02, 0.8))
 def test_mesh_is_closed_and_has_the_exact_volume_and_area(seed, share):
     polyhedron = tangent_cuts(HALF_AXES_M, cuts=13, rng=np.random.default_rng(seed))
-    radius_m = share * inradius_m(polyhedron)
+    radius_m = share * inscribed_ball(polyhedron).radius_m
     mesh = rounded_mesh(polyhedron, radius_m)
     surface = trimesh.Trimesh(mesh.vertices_m, mesh.faces, process=False)
     assert surface.is_watertight

@@ -45,7 +45,7 @@ class RoundedHull:
         lengths_m = np.linalg.norm(edges_m, axis=1)
         normals = np.column_stack([edges_m[:, 1], -edges_m[:, 0]]) / lengths_m[:, None]
         offsets_m = np.einsum("ij,ij->i", normals, corners_m)
-        inradius_m = largest_ball(normals, offsets_m)[1]
+        inradius_m = largest_ball(normals, offsets_m).radius_m
         length_m, r = float(lengths_m.sum()), self.radius_m
         return OutlineTruth(
             area_m2=float(offsets_m @ lengths_m / 2.0) + length_m * r + np.pi * r**2,

@@ -4,9 +4,10 @@
 or points, `roundness(mask)` for instance. Names are imported when they are first asked for.
 
 The parts, in the order data flows through them: `io` reads files, `observation` holds an image and
-its range, `ground` and `segmentation` find the rocks, `outline`, `ellipse`, `ellipsoid` and
-`surface` fit each, `measures` turns fits into numbers, `method` says which, `pipeline` joins all
-that, `measurement` is the result with its table, and `report` shows it.
+its range, `inputs` makes it of arrays or files, `ground` and `segmentation` find the rocks,
+`outline`, `ellipse`, `ellipsoid` and `surface` fit each, `measures` turns fits into numbers,
+`method` says which, `pipeline` joins all that, `measurement` is the result with its table, and
+`report` shows it.
 """
 
 import lazy_loader

@@ -1,10 +1,10 @@
 from . import measures as measures
 from .api import measure as measure
-from .api import read as read
 from .camera.camera import Camera as Camera
 from .camera.camera import PinholeLike as PinholeLike
 from .errors import InputError as InputError
 from .ground import Ground as Ground
+from .inputs.files import read as read
 from .measurement import Measurement as Measurement
 from .measurement import Rock as Rock
 from .measures.functions import angularity_2d as angularity_2d

@@ -5,9 +5,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from rockshape.api import read
 from rockshape.commands.summary import summarise
 from rockshape.errors import InputError
+from rockshape.inputs.files import read
 from rockshape.io import write_image, write_table
 from rockshape.io.files import check_writable, write_bytes
 from rockshape.io.registry import IMAGES, LABELS, TABLES

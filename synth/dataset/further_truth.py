@@ -8,7 +8,7 @@ from synth.camera.camera import Pose
 from synth.rocks import RockModel
 from synth.rocks.outlines import Form, plane_across
 from synth.rocks.truth import Truth, maximum_projection_sphericity
-from synth.scene.scene import PlacedRock
+from synth.scene.laying import PlacedRock
 from synth.spec.truth import TruthSpec
 
 Table = dict[str, Any]

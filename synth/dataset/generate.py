@@ -8,13 +8,14 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from pathlib import Path
 
+from synth.dataset.common import identity, write_common
 from synth.dataset.files import plain, read_json, write_json
 from synth.dataset.folder_lock import folder_lock
 from synth.dataset.integrity import lost_files, scenes_of
-from synth.dataset.layout import scene_path, splits_of
+from synth.dataset.layout import PARTIAL, scene_path, splits_of
 from synth.dataset.progress_bar import ProgressBar
 from synth.dataset.workers import registrations, worker_pool
-from synth.dataset.write import PARTIAL, identity, write_common, write_scene
+from synth.dataset.write import write_scene
 from synth.errors import MissingBackendError, SpecError
 from synth.render import choose_backend
 from synth.render.backends import BACKENDS

@@ -15,6 +15,7 @@ from synth.spec import SceneSpec, dataset_of, image_of
 from synth.spec.dataset import LayoutName
 
 MAX_ROCKS = 1000  # object ids leave this much room for each scene
+PARTIAL = ".partial"  # folder of scenes that are not whole yet, gone when the dataset is
 
 
 @dataclass(frozen=True)

@@ -3,9 +3,9 @@
 from pathlib import Path
 from typing import Any
 
+from synth.dataset.common import file_digests, identity
 from synth.dataset.files import read_json
 from synth.dataset.generate import generate_dataset
-from synth.dataset.write import file_digests, identity
 from synth.errors import ReplayError, SpecError
 from synth.render.backends import BACKENDS
 from synth.spec import SceneSpec, convert_spec

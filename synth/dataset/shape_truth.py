@@ -11,7 +11,8 @@ from synth.dataset.further_truth import form_outline, further_truth
 from synth.geometry.mesh import Mesh
 from synth.render.view import Sight
 from synth.rocks.outlines import Form, plane_across
-from synth.scene.scene import PlacedRock, SceneModel
+from synth.scene.laying import PlacedRock
+from synth.scene.scene import SceneModel
 from synth.spec.truth import TruthSpec
 
 Table = dict[str, Any]

@@ -1,26 +1,17 @@
-"""Dataset writing: one scene at a time, complete or not at all, then what belongs to all."""
+"""Scene writing: one scene of a dataset, complete or not at all."""
 
 import os
 import shutil
-from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import nullcontext
-from importlib.metadata import version
 from pathlib import Path
-from typing import Any
 
-import msgspec
 import numpy as np
 from msgspec import UNSET
-from numpy.typing import NDArray
 
 from synth.camera.calibration import calibrated, reported_camera, reported_pose
-from synth.camera.trajectories import camera_of
 from synth.dataset import bop
-from synth.dataset.contact_sheet import MAX_SCENES, sheet_row, write_contact_sheet
 from synth.dataset.depth import depth_scale_mm, encode_depth
 from synth.dataset.files import (
-    read_json,
-    sha256,
     write_ascii_ply_mm,
     write_json,
     write_ply_mm,
@@ -29,6 +20,7 @@ from synth.dataset.files import (
 )
 from synth.dataset.glb import scene_glb
 from synth.dataset.layout import (
+    PARTIAL,
     first_object_id,
     has_things,
     image_folders,
@@ -39,25 +31,20 @@ from synth.dataset.layout import (
     scene_path,
 )
 from synth.dataset.normals import encode_normals
-from synth.dataset.range_files import RANGE_FOLDER, hole_table, hole_value, write_range
+from synth.dataset.range_files import RANGE_FOLDER, hole_value, write_range
 from synth.dataset.shape_truth import scene_gt_shape
-from synth.dataset.splits import write_splits
 from synth.dataset.surroundings import light_table, things_table
+from synth.dataset.view_files import write_masks, write_pictures
 from synth.dataset.workers import begin_scene, worker_pool
 from synth.light import Stage, spec_stage
 from synth.light.drawn_sun import drawn_sun
 from synth.progress import counted
 from synth.render import RenderedView, open_renderer, render_view
 from synth.render.interface import Renderer
-from synth.render.silhouettes import Cutout
 from synth.render.view import Sight
 from synth.scene.scene import SceneModel, build_scene
 from synth.sensor import Capture, capture_view, sensor_of
 from synth.spec import RendererName, SceneSpec, image_of, truth_of
-
-PARTIAL = ".partial"  # folder of scenes that are not whole yet, gone when the dataset is
-_DISTRIBUTIONS = ("rockshape", "numpy", "scipy", "trimesh", "opencv-python-headless", "embreex")
-_BACKEND_DISTRIBUTION = {"osmesa": "arcade-pyrender", "egl": "arcade-pyrender", "embree": "embreex"}
 
 
 def write_scene(
@@ -90,7 +77,7 @@ def write_scene(
             spec, index, number, scene=scene, stage=stage, renderer=renderer
         )
         depth = encode_depth(capture.depth_m, scale_mm)
-        _write_pictures(folder, number, capture, depth)
+        write_pictures(folder, number, capture, depth)
         write_range(folder, number, capture.depth_m, hole_value(spec))
         if not sensor.exact_range:
             exact = encode_depth(view.depth_m, scale_mm)
@@ -100,7 +87,7 @@ def write_scene(
         if view.normals is not None:
             normals = encode_normals(view.normals)
             write_rgb_png(folder / "normals" / f"{number:06d}.png", normals)
-        _write_masks(folder, number, view, jobs)
+        write_masks(folder, number, view, jobs)
         views.append(view.sight())
         valid.append(depth > 0)
     first_id = first_object_id(spec, index)
@@ -174,90 +161,6 @@ def _camera_tables(
     if calibrated(spec):
         tables["gt_camera"] = bop.scene_camera(scene.camera, scene.poses, scale_mm)
     return tables
-
-
-def write_common(
-    spec: SceneSpec, backend: RendererName, out: Path, pool: Executor | None = None
-) -> None:
-    """Write camera.json, models_info.json, contact sheet, splits' files and, last, the manifest.
-
-    With a pool its processes draw the sheet, row by row.
-    """
-    scenes = [out / scene_path(spec, index) for index in range(min(spec.scenes, MAX_SCENES))]
-    rows = (map if pool is None else pool.map)(sheet_row, scenes)
-    camera = camera_of(spec.camera)
-    reported, scale_mm = reported_camera(spec, camera), depth_scale_mm(spec)
-    write_json(out / "camera.json", {**bop.camera_table(reported, scale_mm), **hole_table(spec)})
-    if calibrated(spec):
-        write_json(out / "camera_gt.json", bop.camera_table(camera, scale_mm))
-    models: dict[str, Any] = {}
-    for index in range(spec.scenes):
-        for rock in read_json(out / scene_path(spec, index) / "scene_gt_shape.json")["rocks"]:
-            models[str(rock["obj_id"])] = rock["model_mm"]
-    write_json(out / "models" / "models_info.json", models)
-    write_contact_sheet(out / "contact_sheet.png", list(rows))
-    write_splits(spec, out, pool)
-    manifest = {**identity(spec, backend), "files": file_digests(out)}
-    draft = out / "manifest.draft"
-    write_json(draft, manifest)
-    draft.replace(out / "manifest.json")
-
-
-def file_digests(out: Path) -> dict[str, str]:
-    """SHA-256 of every file of a dataset but its manifest, by path in rising order."""
-    paths = (path for path in out.rglob("*") if path.is_file())
-    names = sorted(path.relative_to(out).as_posix() for path in paths)
-    own = ("manifest.json", "manifest.draft")
-    return {
-        name: sha256(out / name)
-        for name in names
-        if name not in own and not name.startswith(f"{PARTIAL}/")
-    }
-
-
-def identity(spec: SceneSpec, backend: RendererName) -> dict[str, Any]:
-    """Identity of a dataset, on which its bytes depend: spec, backend and versions."""
-    names = (*_DISTRIBUTIONS, _BACKEND_DISTRIBUTION[backend])
-    return {
-        "spec": msgspec.to_builtins(spec),
-        "seed": spec.seed,
-        "backend": backend,
-        "versions": {name: version(name) for name in names},
-    }
-
-
-def _write_pictures(folder: Path, number: int, capture: Capture, depth: NDArray[np.uint16]) -> None:
-    name = f"{number:06d}.png"
-    write_png(folder / "gray" / name, capture.picture)
-    write_png(folder / "depth" / name, depth)
-    if capture.colour is not None:
-        write_rgb_png(folder / "rgb" / name, capture.colour)
-    for own, picture in capture.pictures.items():
-        write_png(folder / own / name, picture)
-
-
-def _write_masks(folder: Path, number: int, view: Sight, jobs: int) -> None:
-    stem = f"{number:06d}"
-    write_png(folder / "labels" / f"{stem}.png", view.labels)
-
-    def write(instance: int) -> None:
-        name = f"{stem}_{instance:06d}.png"
-        write_png(folder / "mask" / name, _white(view.silhouettes.cutout(instance)))
-        write_png(folder / "mask_visib" / name, _white(view.visible(instance)))
-
-    instances = range(len(view.silhouettes))
-    with ThreadPoolExecutor(jobs) as threads:
-        for _ in zip(
-            counted(instances, "rocks' masks"), threads.map(write, instances), strict=True
-        ):
-            pass
-
-
-def _white(cutout: Cutout) -> NDArray[np.uint8]:
-    """Picture of the frame, (rows, cols), 255 where the mask is set."""
-    frame = np.zeros(cutout.shape, dtype=np.uint8)
-    frame[cutout.window] = np.where(cutout.mask, 255, 0)
-    return frame
 
 
 def _publish(folder: Path, out: Path, place: Path) -> None:

@@ -208,7 +208,7 @@ def test_a_file_the_system_refuses_is_one_line(
     def refused(path: Path, **_: object) -> None:
         raise OSError(28, "No space left on device", str(path))
 
-    monkeypatch.setattr("rockshape.api.read_picture", refused)
+    monkeypatch.setattr("rockshape.inputs.files.read_picture", refused)
     fails_in_one_line(capsys, ["measure", "a.png", "--range", "b.npz"], "a.png: No space left")
 
 
@@ -229,6 +229,6 @@ def test_a_defect_keeps_its_traceback(monkeypatch: pytest.MonkeyPatch) -> None:
     def broken(path: Path, **_: object) -> None:
         raise ZeroDivisionError(path)
 
-    monkeypatch.setattr("rockshape.api.read_picture", broken)
+    monkeypatch.setattr("rockshape.inputs.files.read_picture", broken)
     with pytest.raises(ZeroDivisionError):
         main(["measure", "a.png", "--range", "b.npz"])

@@ -13,7 +13,8 @@ from synth.light import Stage, light_scene
 from synth.render import open_renderer, render_view
 from synth.rocks.ellipsoid import ellipsoid
 from synth.scene.ground import make_ground
-from synth.scene.scene import PlacedRock, SceneModel, build_scene
+from synth.scene.laying import PlacedRock
+from synth.scene.scene import SceneModel, build_scene
 from synth.spec import SceneSpec
 from synth.spec.ground import GroundSpec
 from synth.spec.rocks import RocksSpec

@@ -15,7 +15,8 @@ from synth.render.view import render_view
 from synth.rocks.ellipsoid import ellipsoid
 from synth.scene.finish import Finish
 from synth.scene.ground import make_ground
-from synth.scene.scene import PlacedRock, SceneModel
+from synth.scene.laying import PlacedRock
+from synth.scene.scene import SceneModel
 from synth.spec.ground import GroundSpec
 from synth.spec.surface import SurfaceSpec
 from synth.spec.view import SunSpec

@@ -11,8 +11,7 @@ import pytest
 from synth.camera.camera import PRESETS
 from synth.dataset.depth import depth_scale_mm, encode_depth
 from synth.dataset.generate import generate_dataset
-from synth.dataset.layout import scene_number
-from synth.dataset.write import PARTIAL
+from synth.dataset.layout import PARTIAL, scene_number
 from synth.errors import SpecError
 from synth.scene.scene import build_scene
 from synth.spec import SceneSpec

@@ -22,7 +22,8 @@ from synth.render import open_renderer, render_view
 from synth.render.view import depth_limits_m
 from synth.rocks.ellipsoid import ellipsoid
 from synth.scene.ground import make_ground
-from synth.scene.scene import PlacedRock, SceneModel, build_scene
+from synth.scene.laying import PlacedRock
+from synth.scene.scene import SceneModel, build_scene
 from synth.spec import convert_spec
 from synth.spec.ground import GroundSpec
 from synth.spec.surface import SurfaceSpec

@@ -11,7 +11,8 @@ from synth.render import open_renderer
 from synth.render.view import render_light
 from synth.rocks.ellipsoid import ellipsoid
 from synth.scene.ground import make_ground
-from synth.scene.scene import PlacedRock, SceneModel, build_scene
+from synth.scene.laying import PlacedRock
+from synth.scene.scene import SceneModel, build_scene
 from synth.spec import convert_spec
 from synth.spec.ground import GroundSpec
 from synth.spec.surface import SurfaceSpec

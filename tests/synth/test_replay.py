@@ -13,7 +13,7 @@ import pytest
 
 from rockshape.cli import main
 from synth.dataset.generate import generate_dataset
-from synth.dataset.write import PARTIAL
+from synth.dataset.layout import PARTIAL
 from synth.spec import load_spec
 from tests.digests import digests
 

@@ -14,7 +14,8 @@ from synth.light.rays import Surfaces
 from synth.render import open_renderer, render_view
 from synth.rocks.ellipsoid import ellipsoid
 from synth.scene.ground import make_ground
-from synth.scene.scene import PlacedRock, SceneModel, build_scene
+from synth.scene.laying import PlacedRock
+from synth.scene.scene import SceneModel, build_scene
 from synth.scene.settling import buried_fraction
 from synth.spec import SceneSpec, convert_spec
 from synth.spec.ground import GroundSpec

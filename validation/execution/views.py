@@ -19,7 +19,8 @@ from rockshape.camera.camera import Camera
 from rockshape.io import read_camera, read_image, read_range
 from rockshape.observation import Observation
 from synth.camera.camera import RenderCamera
-from synth.dataset.write import write_common, write_scene
+from synth.dataset.common import write_common
+from synth.dataset.write import write_scene
 from synth.render import choose_backend
 from synth.render.view import RenderedView
 from synth.sensor.sensor import Capture, find_sensor

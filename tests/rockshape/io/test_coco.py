@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from pycocotools import mask as coco_mask
 
-from rockshape.api import observe
 from rockshape.errors import InputError
+from rockshape.inputs.arrays import observe
 from rockshape.io import read_labels
 from rockshape.pipeline import measure
 

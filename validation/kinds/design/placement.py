@@ -6,7 +6,8 @@ import msgspec
 import numpy as np
 
 from synth.camera.trajectories import stations
-from synth.scene.scene import PlacedRock, SceneModel, build_scene
+from synth.scene.laying import PlacedRock
+from synth.scene.scene import SceneModel, build_scene
 from synth.spec import SceneSpec
 from validation.kinds.design.spec import DesignExperiment
 

@@ -1,0 +1,1 @@
+"""Inputs of a measurement: observations of arrays and of files."""

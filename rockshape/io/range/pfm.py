@@ -1,5 +1,6 @@
 """Portable float maps."""
 
+import re
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,6 +11,8 @@ if TYPE_CHECKING:
     from rockshape.io.files import InputFile
 
 WIDTHS = {b"Pf": 1, b"PF": 3}
+# magic number, columns, rows and scale; one byte of white space after the last
+HEADER = re.compile(rb"(P[fF])\s+(\d+)\s+(\d+)\s+(\S+)\s")
 
 
 def read_pfm(file: "InputFile", _: ImageInfo) -> RangeRaster:
@@ -17,29 +20,18 @@ def read_pfm(file: "InputFile", _: ImageInfo) -> RangeRaster:
 
     Source: Debevec, "PFM: portable float map": a negative scale means little-endian numbers.
     """
-    words = file.data.split(maxsplit=4)  # magic number, columns, rows, scale
-    width = WIDTHS[words[0]]
-    cols, rows, scale = int(words[1]), int(words[2]), float(words[3])
+    header = HEADER.match(file.data)
+    if header is None:
+        raise ValueError("a header that does not end")
+    width = WIDTHS[header[1]]
+    cols, rows, scale = int(header[2]), int(header[3]), float(header[4])
     if cols <= 0 or rows <= 0 or not (np.isfinite(scale) and scale):
         raise ValueError(f"{cols} x {rows} values of scale {scale}")
     file.check_shape((rows, cols, width), item_bytes=4)
-    start = _header_bytes(file.data)
-    values = np.frombuffer(
-        file.data, "<f4" if scale < 0 else ">f4", count=rows * cols * width, offset=start
-    )
+    order = "<f4" if scale < 0 else ">f4"
+    values = np.frombuffer(file.data, order, count=rows * cols * width, offset=header.end())
     raster = values.reshape(rows, cols, width)[::-1].astype(np.float32) * np.float32(abs(scale))
     return RangeRaster(raster[..., 0] if width == 1 else raster)
-
-
-def _header_bytes(data: bytes) -> int:
-    """Length of the header: four words, and one byte of white space after the last."""
-    place = 0
-    for _ in range(4):
-        while data[place : place + 1].isspace():
-            place += 1
-        while not data[place : place + 1].isspace():
-            place += 1
-    return place + 1
 
 
 FORMAT = RangeFormat(

@@ -38,7 +38,7 @@ soak: .venv/.ready
 
 # Every benchmark at its smallest size: that it works, not how fast it is.
 bench-smoke: .venv/.ready
-	.venv/bin/python benchmarks/run.py --smallest
+	.venv/bin/python benchmarks/run.py --smallest --jobs $(JOBS)
 
 lint: .venv/.ready
 	.venv/bin/ruff format --check

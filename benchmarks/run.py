@@ -2,10 +2,11 @@
 
     python benchmarks/run.py --list
     python benchmarks/run.py flat_speed ellipsoid
-    python benchmarks/run.py --smallest
+    python benchmarks/run.py --smallest --jobs 2
 
 Without CASE all but the slow cases run. A case at its smallest size tests that it works: its
-figures are printed, and kept only where --out names a file. `tables.py` writes the tables in docs.
+figures are printed, and kept only where --out names a file; several cases may then run side by
+side, which full ones never do. `tables.py` writes the tables in docs.
 """
 
 import argparse
@@ -15,6 +16,8 @@ import os
 import pkgutil
 import sys
 import time
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 
 import cv2
@@ -58,10 +61,20 @@ def run_case(case: Case, *, smallest: bool, out: Path | None) -> None:
     entry = entry_of(case, size, tables, load=max(load, os.getloadavg()[0]))
     if out is not None:
         save_entry(case.name, entry, out)
-    print(f"\n{case.name} ({size}, {time.perf_counter() - start:.1f} s): {case.what}")
-    for table in entry["tables"]:
-        print(f"\n{table['name']}\n{markdown(table)}" if table["name"] else f"\n{markdown(table)}")
-    sys.stdout.flush()
+    head = f"\n{case.name} ({size}, {time.perf_counter() - start:.1f} s): {case.what}\n"
+    told = [f"{table['name']}\n{markdown(table)}".lstrip("\n") for table in entry["tables"]]
+    print("\n\n".join([head.rstrip("\n"), *told]), flush=True)
+
+
+def run_smallest(name: str) -> None:
+    """Run a case at its smallest size, by its name, and print its tables."""
+    run_case(all_cases()[name], smallest=True, out=None)
+
+
+def run_side_by_side(chosen: list[Case], jobs: int) -> None:
+    """Run cases at their smallest size, so many at a time."""
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+        list(pool.map(run_smallest, [case.name for case in chosen]))
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -72,8 +85,11 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("cases", nargs="*", metavar="CASE")
     parser.add_argument("--list", action="store_true", help="name the cases and stop")
     parser.add_argument("--smallest", action="store_true", help="each at its smallest size")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="with --smallest alone")
     parser.add_argument("--out", type=Path, metavar="FILE", help="default: benchmarks/results.json")
     args = parser.parse_args(argv)
+    if args.jobs > 1 and (args.out or not args.smallest):
+        parser.error("--jobs: expected --smallest without --out beside it: times need the machine")
     cases = all_cases()
     if args.list:
         for case in cases.values():
@@ -86,6 +102,9 @@ def main(argv: list[str] | None = None) -> int:
         return 2
     if not chosen:
         chosen = [case for case in cases.values() if args.smallest or not case.slow]
+    if args.jobs > 1:
+        run_side_by_side(chosen, args.jobs)
+        return 0
     for case in chosen:
         out = args.out or (None if args.smallest else RESULTS)
         run_case(case, smallest=args.smallest, out=out)

@@ -194,6 +194,15 @@ def test_a_misspelt_case_is_refused_with_the_nearest_name(capsys):
     assert "unknown case 'elipsoid'; did you mean 'ellipsoid'?" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("words", [[], ["--smallest", "--out", "results.json"]])
+def test_figures_that_are_kept_are_not_taken_side_by_side(words, capsys):
+    from run import main
+
+    with pytest.raises(SystemExit):
+        main(["--jobs", "2", *words])
+    assert "--jobs: expected --smallest" in capsys.readouterr().err
+
+
 def test_a_row_of_the_wrong_length_is_refused():
     from case import Column, Table
 

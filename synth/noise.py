@@ -111,6 +111,20 @@ def wrapped(maps: Field, columns: Field, rows: Field) -> Field:
     )
 
 
+def halved(maps: Field) -> Field:
+    """Periodic maps of half the side, each sample the mean of four."""
+    return np.asarray(
+        (maps[::2, ::2] + maps[1::2, ::2] + maps[::2, 1::2] + maps[1::2, 1::2]) * np.float32(0.25)
+    )
+
+
+def slopes(height: Field) -> Field:
+    """Slopes of a periodic map along columns and rows, (side, side, 2), by central differences."""
+    return np.stack(
+        [(np.roll(height, -1, axis) - np.roll(height, 1, axis)) / 2 for axis in (1, 0)], axis=-1
+    )
+
+
 class MipMap:
     """Periodic maps with their halvings, to be looked up averaged over a footprint."""
 
@@ -118,11 +132,7 @@ class MipMap:
         """Take maps (side, side) or (side, side, channels), at most four; side is a power of 2."""
         self._levels = [np.ascontiguousarray(maps, dtype=np.float32)]
         while len(self._levels[-1]) > _LEAST_SIDE:
-            one = self._levels[-1]
-            self._levels.append(
-                (one[::2, ::2] + one[1::2, ::2] + one[::2, 1::2] + one[1::2, 1::2])
-                * np.float32(0.25)
-            )
+            self._levels.append(halved(self._levels[-1]))
 
     def at(self, columns: Singles, rows: Singles, footprint: Singles) -> Singles:
         """Maps at places (n,) in samples, as (n,) or (n, channels), linear between samples.

@@ -40,6 +40,11 @@ class DisparityScale:
         if not np.isfinite(self.offset_px):
             raise InputError(f"camera: offset_px: expected a finite number, found {self.offset_px}")
 
+    def depth(self, disparity: Floats, *, fx: float) -> Floats:
+        """Z-depth of disparity in px, in the baseline's unit; NaN where nothing is that far."""
+        known = disparity + self.offset_px
+        return np.asarray(fx * self.baseline_m / np.where(known > 0, known, np.nan))
+
 
 @dataclass(frozen=True, eq=False)
 class Lens:

@@ -77,9 +77,7 @@ def _from_disparity(known: KnownRange) -> Floats:
         raise InputError(
             "disparity: expected the camera of rectified images, found one with distortion or skew"
         )
-    disparity = disparity + camera.disparity.offset_px
-    disparity = np.where(disparity > 0, disparity, np.nan)
-    depth = camera.pinhole.fx * camera.disparity.baseline_m / disparity
+    depth = camera.disparity.depth(disparity, fx=camera.pinhole.fx)
     return np.asarray(rays * depth[..., None] * known.scale.metres)
 
 

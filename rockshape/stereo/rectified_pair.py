@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 
 from rockshape.camera.camera import Camera
-from rockshape.camera.lens import FramePose, Lens, RightCamera
+from rockshape.camera.lens import DisparityScale, FramePose, Lens, RightCamera
 from rockshape.errors import InputError
 from rockshape.numerics.arrays import Floats
 from rockshape.stereo.block_matching import Bytes
@@ -75,9 +75,9 @@ class RectifiedPair:
         disparity is that of the rectified left picture, px: Z = f B / (d - d∞).
         """
         rays = self.left.rays()
-        known = self.left.seen_by_lens(disparity, rays) - self.infinity_px
-        known = np.where(known > 0, known, np.nan)
-        depth = self.left.pinhole.fx * self.baseline_m / known
+        seen = self.left.seen_by_lens(disparity, rays)
+        scale = DisparityScale(self.baseline_m, -self.infinity_px)
+        depth = scale.depth(seen, fx=self.left.pinhole.fx)
         return np.asarray((rays * depth[..., None]) @ self.left.rotation)
 
 

@@ -8,6 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from synth.dataset.depth_colours import depth_colours
 from synth.dataset.files import write_png
 
 Bytes = NDArray[np.uint8]
@@ -74,13 +75,7 @@ def _tinted(image: Image, labels: Image) -> Bytes:
 def _coloured(depth: Image) -> Bytes:
     """Depth as a small picture in colours, (rows, cols, 3)."""
     small = _shrunk(depth.astype(np.float32), cv2.INTER_NEAREST)
-    known = small > 0
-    if not known.any():
-        return np.full((*small.shape, 3), _PAPER, dtype=np.uint8)
-    near, far = np.percentile(small[known], [1.0, 99.0])
-    share = np.clip((far - small) / max(far - near, 1e-6), 0.0, 1.0)
-    colours = cv2.applyColorMap(np.rint(255.0 * share).astype(np.uint8), cv2.COLORMAP_PLASMA)
-    return np.where(known[..., None], colours, np.uint8(_PAPER)).astype(np.uint8)
+    return depth_colours(small, small > 0, paper=_PAPER)
 
 
 def _shrunk(image: Image, how: int) -> Image:

@@ -83,6 +83,11 @@ def vertex_normals(vertices_m: Floats, faces: Ints) -> Floats:
     return np.asarray(sums / np.linalg.norm(sums, axis=1, keepdims=True))
 
 
+def half_edges(faces: Ints) -> Ints:
+    """Ends of the faces' sides, (3 m, 2): all first sides, then all second and third ones."""
+    return np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+
+
 def _corners_m(mesh: Mesh) -> Floats:
     """Faces' corners, (3, m, 3)."""
     return np.asarray(mesh.vertices_m[mesh.faces].transpose(1, 0, 2))

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synth.arrays import ColourImage, DepthImage, Image, LabelImage
+from synth.dataset.depth_colours import depth_colours
 from synth.sensor.exposure import eight_bits
 
 if TYPE_CHECKING:
@@ -39,21 +40,12 @@ def figure_html(
     """HTML of an image, its depth in colours if there is one, and the first rows of a table."""
     shown: NDArray[Any] = image if image.dtype == np.uint8 else eight_bits(image)
     shown = shown if shown.ndim == 2 else np.ascontiguousarray(shown[..., ::-1])
-    images = [_tag(shown)] if depth_m is None else [_tag(shown), _tag(_coloured(depth_m))]
+    images = [_tag(shown)]
+    if depth_m is not None:
+        images.append(_tag(depth_colours(depth_m, np.isfinite(depth_m), paper=255)))
     columns = [name for name in _SHOWN if name in table] or list(table.columns)
     rows = table[columns].head(_MOST_ROWS).to_html(index=False, float_format="{:.3g}".format)
     return f"<p>{escape(caption)}</p><p>{' '.join(images)}</p>{rows}"
-
-
-def _coloured(depth_m: DepthImage) -> NDArray[np.uint8]:
-    """Depth in colours (rows, cols, 3), near yellow, white where nothing was measured."""
-    known = np.isfinite(depth_m)
-    if not known.any():
-        return np.full((*depth_m.shape, 3), 255, dtype=np.uint8)
-    near, far = np.percentile(depth_m[known], [1.0, 99.0])
-    share = np.clip((far - np.where(known, depth_m, far)) / max(far - near, 1e-6), 0.0, 1.0)
-    colours = cv2.applyColorMap(np.rint(255.0 * share).astype(np.uint8), cv2.COLORMAP_PLASMA)
-    return np.where(known[..., None], colours, np.uint8(255)).astype(np.uint8)
 
 
 def _tag(image: NDArray[Any]) -> str:

@@ -6,7 +6,8 @@ import numpy as np
 
 from synth.arrays import Floats, Singles
 from synth.light.body import Relief
-from synth.noise import MipMap, fractal, stones
+from synth.light.texture import plane_weights
+from synth.noise import MipMap, fractal, slopes, stones
 
 _SIDE, _SEED = 1024, 19970704
 _TEXEL_M = 0.001
@@ -39,20 +40,19 @@ def rock_relief(model_to_world: Floats, position_m: Floats, slope: float) -> Rel
 
 def _tilts(points_m: Singles, normals: Singles, footprint_m: Singles) -> Singles:
     """Gradients (n, 3) of the relief at points of a rock's frame."""
-    weights = normals**4
-    weights /= np.sqrt((weights**2).sum(axis=1, keepdims=True))
+    weights = plane_weights(normals)
     scale = np.float32(1.0 / _TEXEL_M)
     tilts = np.zeros_like(points_m)
     for axis in range(3):
         shown = np.flatnonzero(weights[:, axis] > _LEAST_WEIGHT)
         one, two = (axis + 1) % 3, (axis + 2) % 3
-        slopes = _slopes().at(
+        found = _slopes().at(
             (points_m[shown, one] + np.float32(0.31 * axis)) * scale,
             points_m[shown, two] * scale,
             footprint_m[shown] * scale,
         )
-        tilts[shown, one] += weights[shown, axis] * slopes[:, 0]
-        tilts[shown, two] += weights[shown, axis] * slopes[:, 1]
+        tilts[shown, one] += weights[shown, axis] * found[:, 0]
+        tilts[shown, two] += weights[shown, axis] * found[:, 1]
     return tilts
 
 
@@ -64,8 +64,6 @@ def _slopes() -> MipMap:
     for spacing, share in _PITS:
         depth, _ = stones(_SIDE, spacing, share, rng)
         height -= _PIT_DEPTH * depth
-    slopes = np.stack(
-        [(np.roll(height, -1, axis) - np.roll(height, 1, axis)) / 2 for axis in (1, 0)], axis=-1
-    )
-    rms = np.sqrt((slopes**2).sum(axis=-1).mean())
-    return MipMap(np.asarray(slopes / rms, dtype=np.float32))
+    tilts = slopes(height)
+    rms = np.sqrt((tilts**2).sum(axis=-1).mean())
+    return MipMap(np.asarray(tilts / rms, dtype=np.float32))

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synth.arrays import Singles
+from synth.noise import halved
 
 _SIZE = 1024  # texels of the tile's side
 TEXEL_M = 0.002
@@ -34,8 +35,7 @@ def pyramid() -> tuple[Singles, ...]:
     tile = np.fft.irfft2(spectrum, s=(_SIZE, _SIZE))
     levels = [(tile / tile.std()).astype(np.float32)]
     for _ in range(_LEVELS - 1):
-        one = levels[-1]
-        levels.append((one[::2, ::2] + one[1::2, ::2] + one[::2, 1::2] + one[1::2, 1::2]) / 4)
+        levels.append(halved(levels[-1]))
     return tuple(np.pad(level, (0, 1), mode="wrap") for level in levels)
 
 
@@ -57,14 +57,20 @@ def pattern(across_m: Singles, along_m: Singles, footprint_m: Singles) -> Single
     return np.asarray(np.float32(0.95) * fine + np.float32(0.3) * coarse)
 
 
-def wrapped(points_m: Singles, normals: Singles, footprint_m: Singles) -> Singles:
-    """Texture of a body at points (n, 3) of its own frame with normals (n, 3).
+def plane_weights(normals: Singles) -> Singles:
+    """Weights (n, 3) of the patterns of three planes on surfaces with normals (n, 3).
 
-    Three planes' patterns are mixed by the normal's components to the fourth power, and divided
-    by the root of the weights' squares, so that the variance holds where they mix.
+    The normal's components to the fourth power, divided by the root of their squares' sum, so that
+    the variance holds where the patterns mix.
     """
     weights = normals**4
     weights /= np.sqrt((weights**2).sum(axis=1, keepdims=True))
+    return np.asarray(weights)
+
+
+def wrapped(points_m: Singles, normals: Singles, footprint_m: Singles) -> Singles:
+    """Texture of a body at points (n, 3) of its own frame with normals (n, 3)."""
+    weights = plane_weights(normals)
     total = np.zeros(len(points_m), dtype=np.float32)
     for axis in range(3):
         shown = np.flatnonzero(weights[:, axis] > 0.05)

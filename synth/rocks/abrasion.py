@@ -53,13 +53,8 @@ def abraded(rock: RockModel, *, abrasion: float) -> RockModel:
     factor = float(rock.truth.half_axes_box_m[0] / turned.truth.half_axes_box_m[0])
     moved = worn.moved(axes, -axes @ centroid_m(worn))
     scaled = replace(moved, vertices_m=factor * moved.vertices_m)
-    truth = replace(
-        turned.truth,
-        half_axes_box_m=factor * turned.truth.half_axes_box_m,
-        half_axes_inertia_m=factor * turned.truth.half_axes_inertia_m,
-        volume_m3=factor**3 * turned.truth.volume_m3,
-        area_m2=None if rock.truth.area_m2 is None else area_m2(scaled),
-    )
+    area = None if rock.truth.area_m2 is None else area_m2(scaled)
+    truth = turned.truth.scaled(factor, area_m2=area)
     return replace(
         turned,
         mesh=scaled,

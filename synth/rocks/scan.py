@@ -26,13 +26,7 @@ def scan(path: str, *, diameter_m: float) -> RockModel:
     """
     rock = _read(path)
     factor = diameter_m / (2.0 * float(rock.truth.half_axes_box_m[0]))
-    truth = replace(
-        rock.truth,
-        half_axes_box_m=factor * rock.truth.half_axes_box_m,
-        half_axes_inertia_m=factor * rock.truth.half_axes_inertia_m,
-        volume_m3=factor**3 * rock.truth.volume_m3,
-        area_m2=factor**2 * area_m2(rock.mesh),
-    )
+    truth = rock.truth.scaled(factor, area_m2=factor**2 * area_m2(rock.mesh))
     mesh = Mesh(
         vertices_m=factor * rock.mesh.vertices_m,
         faces=rock.mesh.faces,

@@ -1,6 +1,7 @@
 """Truth of a body: half-axes in two senses, sphericity, volume, area and roundness."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
@@ -24,6 +25,16 @@ class Truth:
         """Make the arrays read-only."""
         self.half_axes_box_m.setflags(write=False)
         self.half_axes_inertia_m.setflags(write=False)
+
+    def scaled(self, factor: float, *, area_m2: float | None) -> Self:
+        """Truth of the rock scaled alike in all directions, whose area is given."""
+        return replace(
+            self,
+            half_axes_box_m=factor * self.half_axes_box_m,
+            half_axes_inertia_m=factor * self.half_axes_inertia_m,
+            volume_m3=factor**3 * self.volume_m3,
+            area_m2=area_m2,
+        )
 
     def maximum_projection_sphericity(self) -> float:
         """Maximum projection sphericity (c²/(ab))^(1/3) of the smallest box.

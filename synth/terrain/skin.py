@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 
 from synth.arrays import Singles
-from synth.noise import MipMap, fractal, stones
+from synth.noise import MipMap, fractal, slopes, stones
 from synth.spec.terrain import Colour, TerrainSpec
 from synth.terrain.grid import Spacing
 from synth.terrain.layers import Layers
@@ -111,7 +111,7 @@ def soil_skin(spec: TerrainSpec, layers: Layers, mesh: Spacing) -> SoilSkin:
     height = layers.height_m / np.float32(layers.cell_m)
     return SoilSkin(
         covers=MipMap(np.stack([layers.drift, layers.bedrock, layers.crack], axis=-1)),
-        slopes=MipMap(_slopes(height)),
+        slopes=MipMap(slopes(height)),
         cell_m=layers.cell_m,
         mesh=mesh,
         soil=spec.soil,
@@ -125,13 +125,6 @@ def _row(colour: Colour) -> Singles:
     return np.array(colour, dtype=np.float32)
 
 
-def _slopes(height: Singles) -> Singles:
-    """Slopes of a periodic map along columns and rows, (side, side, 2), by central differences."""
-    return np.stack(
-        [(np.roll(height, -1, axis) - np.roll(height, 1, axis)) / 2 for axis in (1, 0)], axis=-1
-    )
-
-
 @cache
 def _grit() -> MipMap:
     """Slopes along columns and rows, and a tint, of small stones of four sizes."""
@@ -141,7 +134,7 @@ def _grit() -> MipMap:
     for spacing, share in _GRIT_SHARES:
         top, own = stones(_GRIT_SIDE, spacing, share, rng, size=0.8)
         height, tint = np.where(top > 0.0, height + top, height), np.where(top > 0.0, own, tint)
-    return MipMap(np.concatenate([_slopes(height), tint[..., None]], axis=-1))
+    return MipMap(np.concatenate([slopes(height), tint[..., None]], axis=-1))
 
 
 @cache

@@ -6,7 +6,7 @@ import numpy as np
 
 from synth.arrays import Floats, Ints
 from synth.geometry.caliper import caliper_half_axes_m
-from synth.geometry.mesh import Mesh
+from synth.geometry.mesh import Mesh, half_edges
 from synth.rocks.outlines.record import OutlineTruth, polygon_outline
 from synth.rocks.outlines.smoothed import SCALE, smoothed_roundness
 
@@ -70,7 +70,7 @@ class MeshForm:
 def mesh_form(mesh: Mesh) -> MeshForm:
     """Form of a closed mesh: its edges, each with its two faces."""
     faces = mesh.faces
-    ends = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    ends = np.sort(half_edges(faces), axis=1)
     order = np.argsort(ends @ np.array([len(mesh.vertices_m), 1]), kind="stable")
     return MeshForm(
         vertices_m=mesh.vertices_m,

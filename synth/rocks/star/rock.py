@@ -56,13 +56,7 @@ def star_rock(family: str, made: Made, *, longest_m: float, subdivisions: int) -
     factor = longest_m / float(turned.truth.half_axes_box_m[0])
     place = _Place(axes=axes, shift=-axes @ centroid_m(mesh), factor=factor)
     scaled = place.moved(mesh)
-    truth = replace(
-        turned.truth,
-        half_axes_box_m=factor * turned.truth.half_axes_box_m,
-        half_axes_inertia_m=factor * turned.truth.half_axes_inertia_m,
-        volume_m3=factor**3 * turned.truth.volume_m3,
-        area_m2=area_m2(scaled) if made.smooth else None,
-    )
+    truth = turned.truth.scaled(factor, area_m2=area_m2(scaled) if made.smooth else None)
     return replace(
         turned,
         mesh=scaled,

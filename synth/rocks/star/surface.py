@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synth.arrays import Floats, Ints
-from synth.geometry.mesh import Mesh, vertex_normals
+from synth.geometry.mesh import Mesh, half_edges, vertex_normals
 from synth.rocks.sphere import unit_sphere
 
 _BISECTIONS = 14  # of an edge: 1e-4 of its length
@@ -39,7 +39,7 @@ def _creased(surface: StarSurface, directions: Floats, faces: Ints, parts: Ints)
     A vertex goes to the nearest change on its edges, no farther than the edge's middle; in facets
     that this would turn over it stays.
     """
-    edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    edges = half_edges(faces)
     edges = edges[parts[edges[:, 0]] != parts[edges[:, 1]]]  # each from both of its ends
     starts, ends = directions[edges[:, 0]], directions[edges[:, 1]]
     low, high = np.zeros(len(edges)), np.ones(len(edges))

@@ -55,6 +55,7 @@ class _Builder:
         self._faces: list[Ints] = []
         self._corners: dict[tuple[int, int], int] = {}
         self._arcs: dict[tuple[int, int, int], Ints] = {}
+        self._directions: dict[tuple[int, int], Floats] = {}
 
     def add_face(self, face: int, loop: tuple[int, ...]) -> None:
         """Add a flat face, moved outward, as a fan."""
@@ -94,11 +95,9 @@ class _Builder:
         inner = self._add(vertex, (rim + share * (middle - rim)).reshape(-1, 3))
         layers = np.vstack([loop, inner.reshape(-1, len(loop))])
         after = np.roll(layers, -1, axis=1)
-        for outer, outer_next, within, within_next in zip(
-            layers[:-1], after[:-1], layers[1:], after[1:], strict=True
-        ):
-            self._faces.append(np.column_stack([outer, outer_next, within_next]))
-            self._faces.append(np.column_stack([outer, within_next, within]))
+        one = np.stack([layers[:-1], after[:-1], after[1:]], axis=-1)
+        two = np.stack([layers[:-1], after[1:], layers[1:]], axis=-1)
+        self._faces.append(np.stack([one, two], axis=1).reshape(-1, 3))
         top = np.repeat(self._add(vertex, middle[None]), len(loop))
         self._faces.append(np.column_stack([layers[-1], after[-1], top]))
 
@@ -129,16 +128,21 @@ class _Builder:
     def _arc(self, vertex: int, f: int, g: int) -> Ints:
         """Vertices from face f's normal to face g's, along the great circle."""
         if (vertex, f, g) not in self._arcs:
+            ends = self._corner(vertex, f), self._corner(vertex, g)
+            arc = np.concatenate([ends[:1], self._add(vertex, self._between(f, g)), ends[1:]])
+            self._arcs[vertex, f, g] = arc
+            self._arcs[vertex, g, f] = arc[::-1]
+        return self._arcs[vertex, f, g]
+
+    def _between(self, f: int, g: int) -> Floats:
+        """Directions between two faces' normals without the ends, alike at both ends of an edge."""
+        if (f, g) not in self._directions:
             start, end = self._body.normals[f], self._body.normals[g]
             turn_rad = angle_rad(start, end)
             pieces = max(1, int(np.ceil(turn_rad / self._step_rad)))
             along_rad = turn_rad * np.arange(1, pieces)[:, None] / pieces
-            normals = np.sin(turn_rad - along_rad) * start + np.sin(along_rad) * end
-            ends = self._corner(vertex, f), self._corner(vertex, g)
-            arc = np.concatenate([ends[:1], self._add(vertex, normals), ends[1:]])
-            self._arcs[vertex, f, g] = arc
-            self._arcs[vertex, g, f] = arc[::-1]
-        return self._arcs[vertex, f, g]
+            self._directions[f, g] = np.sin(turn_rad - along_rad) * start + np.sin(along_rad) * end
+        return self._directions[f, g]
 
     def _faces_round(self, vertex: int) -> list[int]:
         """Faces that meet at a vertex, anticlockwise seen from outside."""

@@ -23,6 +23,20 @@ def caliper_half_axes_m(points_m: Floats, *, margin_m: float = 0.0) -> Floats:
 
     Source: Sneed and Folk 1958, with I across L as on the maximum projection plane.
     """
+    return np.asarray(_calipers_m(points_m)[1] / 2.0 + margin_m)
+
+
+def caliper_axes(points_m: Floats) -> Floats:
+    """Directions of L, I and S, rows of (3, 3), of the hull of points (n, 3).
+
+    Raises:
+        QhullError: the points lie in a plane.
+    """
+    return _calipers_m(points_m)[0]
+
+
+def _calipers_m(points_m: Floats) -> tuple[Floats, Floats]:
+    """Directions of the extents at right angles, rows of (3, 3), and their lengths (3,)."""
     corners_m = points_m[ConvexHull(points_m).vertices]
     along = _longest_chord_m(corners_m)
     longest_m = float(np.linalg.norm(along))
@@ -33,9 +47,9 @@ def caliper_half_axes_m(points_m: Floats, *, margin_m: float = 0.0) -> Floats:
     flat_m = corners_m @ across.T
     chord = _longest_chord_m(flat_m[ConvexHull(flat_m).vertices])
     middle_m = float(np.linalg.norm(chord))
-    left = np.array([-chord[1], chord[0]]) / middle_m
-    sides_m = np.array([longest_m, middle_m, float(np.ptp(flat_m @ left))])
-    return np.asarray(sides_m / 2.0 + margin_m)
+    turned = np.stack([chord, [-chord[1], chord[0]]]) / middle_m
+    lengths_m = np.array([longest_m, middle_m, float(np.ptp(flat_m @ turned[1]))])
+    return np.concatenate([first[None], turned @ across]), lengths_m
 
 
 def _longest_chord_m(points_m: Floats) -> Floats:

@@ -58,16 +58,16 @@ def smallest_box(points_m: Floats, *, margin_m: float = 0.0) -> Box:
             volume, turned = _refined(axes, corners_m, margin_m, least=least)
             if volume < least * (1.0 - _CLEARLY):
                 least, best = volume, turned
-    return _box(best, corners_m, margin_m)
+    return box_along(best, corners_m, margin_m)
 
 
 def nearby_box(points_m: Floats, *, margin_m: float = 0.0) -> Box:
     """Box of least volume among those that are little turned from the axes."""
-    return _box(_refined(np.eye(3), points_m, margin_m)[1], points_m, margin_m)
+    return box_along(_refined(np.eye(3), points_m, margin_m)[1], points_m, margin_m)
 
 
-def _box(axes: Floats, points_m: Floats, margin_m: float) -> Box:
-    """Box along the given axes, its sides in falling order."""
+def box_along(axes: Floats, points_m: Floats, margin_m: float = 0.0) -> Box:
+    """Box along the given axes, rows of a rotation (3, 3), its sides in falling order."""
     along = axes @ points_m.T
     low, high = along.min(axis=-1), along.max(axis=-1)
     half_sides_m = (high - low) / 2.0 + margin_m

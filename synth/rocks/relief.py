@@ -15,7 +15,7 @@ from synth.geometry.mesh import (
     vertex_normals,
     volume_m3,
 )
-from synth.geometry.min_volume_box import smallest_box
+from synth.geometry.min_volume_box import Box, smallest_box
 from synth.rocks.record import RockModel, SmoothForm
 from synth.rocks.resample import even_mesh
 from synth.rocks.sphere import SUBDIVISIONS, band_limited
@@ -115,9 +115,13 @@ def turned_to_box(
     knobs: dict[str, float],
     relief_rms_m: float | None,
     degrees: tuple[int, int] | None,
+    box: Box | None = None,
 ) -> tuple[RockModel, Floats]:
-    """Rock that a mesh is, in its smallest box's frame, and the rotation (3, 3) to that frame."""
-    box = smallest_box(mesh.vertices_m)
+    """Rock that a mesh is, in its smallest box's frame, and the rotation (3, 3) to that frame.
+
+    The box is sought where it is not given.
+    """
+    box = box or smallest_box(mesh.vertices_m)
     truth = Truth(
         half_axes_box_m=box.half_sides_m,
         half_axes_inertia_m=half_axes_of_covariance_m(covariance_m2(mesh)),

@@ -8,10 +8,12 @@ import numpy as np
 
 from synth.arrays import Floats, Ints
 from synth.geometry.mesh import Mesh, area_m2, centroid_m
+from synth.geometry.min_volume_box import box_along
 from synth.rocks.record import RockModel
 from synth.rocks.relief import turned_to_box
 from synth.rocks.sphere import unit_sphere
 from synth.rocks.star.surface import StarSurface, star_mesh
+from synth.rocks.star.touches import find_touches
 
 _FITTED_ON = 4  # subdivisions of the sphere on which extents are taken
 
@@ -47,11 +49,19 @@ def fitted(surface: StarSurface, half_axes_m: Floats) -> StarSurface:
 def star_rock(family: str, made: Made, *, longest_m: float, subdivisions: int) -> RockModel:
     """Rock of a surface, scaled alike in all directions until a of its smallest box is given.
 
-    Area is given where the surface is smooth; edges and corners have no one radius.
+    Box and scale are the surface's, whose touches of the box the mesh goes through, so that meshes
+    of any fineness have the same. Area is given where the surface is smooth; edges and corners have
+    no one radius.
     """
-    mesh = star_mesh(made.surface, subdivisions)
+    touches = find_touches(made.surface)
+    mesh = star_mesh(made.surface, subdivisions, through=touches.directions)
     turned, axes = turned_to_box(
-        family, mesh, knobs=dict(made.knobs), relief_rms_m=0.0, degrees=None
+        family,
+        mesh,
+        knobs=dict(made.knobs),
+        relief_rms_m=0.0,
+        degrees=None,
+        box=box_along(touches.axes, mesh.vertices_m),
     )
     factor = longest_m / float(turned.truth.half_axes_box_m[0])
     place = _Place(axes=axes, shift=-axes @ centroid_m(mesh), factor=factor)
@@ -61,7 +71,7 @@ def star_rock(family: str, made: Made, *, longest_m: float, subdivisions: int) -
         turned,
         mesh=scaled,
         truth=truth,
-        remesh=partial(_remeshed, made.surface, place),
+        remesh=partial(_remeshed, made.surface, touches.directions, place),
         has_edges=made.has_edges,
         extended=True,
     )
@@ -80,5 +90,5 @@ class _Place:
         return replace(turned, vertices_m=self.factor * turned.vertices_m)
 
 
-def _remeshed(surface: StarSurface, place: _Place, subdivisions: int) -> Mesh:
-    return place.moved(star_mesh(surface, subdivisions))
+def _remeshed(surface: StarSurface, through: Floats, place: _Place, subdivisions: int) -> Mesh:
+    return place.moved(star_mesh(surface, subdivisions, through=through))

@@ -11,6 +11,7 @@ from synth.rocks.sphere import unit_sphere
 
 _BISECTIONS = 14  # of an edge: 1e-4 of its length
 _REACH = 0.505  # share of an edge that a vertex may move along it: to its middle, if need be
+_NONE = np.zeros((0, 3))
 
 
 class StarSurface(Protocol):
@@ -23,12 +24,16 @@ class StarSurface(Protocol):
         """
 
 
-def star_mesh(surface: StarSurface, subdivisions: int) -> Mesh:
-    """Mesh of 20 × 4^subdivisions facets, its vertices on the surface, some on its creases."""
+def star_mesh(surface: StarSurface, subdivisions: int, *, through: Floats = _NONE) -> Mesh:
+    """Mesh of 20 × 4^subdivisions facets, its vertices on the surface, some on its creases.
+
+    The vertices nearest to the directions (k, 3) that it goes `through` are moved there.
+    """
     directions, faces = unit_sphere(subdivisions)
-    vertices, parts = surface.points(directions)
+    _, parts = surface.points(directions)
     if (parts != parts[0]).any():
-        vertices, _ = surface.points(_creased(surface, directions, faces, parts))
+        directions = _creased(surface, directions, faces, parts)
+    vertices, _ = surface.points(_through(directions, faces, through))
     faces = faces.copy()
     return Mesh(vertices_m=vertices, faces=faces, normals=vertex_normals(vertices, faces))
 
@@ -55,6 +60,20 @@ def _creased(surface: StarSurface, directions: Floats, faces: Ints, parts: Ints)
     while folded.any():
         moved[faces[folded]] = directions[faces[folded]]
         folded = _turned_over(moved, faces)
+    return moved
+
+
+def _through(directions: Floats, faces: Ints, wanted: Floats) -> Floats:
+    """Directions (n, 3), the nearest to each wanted one (k, 3) moved there.
+
+    One that would turn a facet over stays.
+    """
+    moved = directions.copy()
+    for way in wanted:
+        nearest = int(np.argmax(directions @ way))
+        moved[nearest] = way
+        if _turned_over(moved, faces[(faces == nearest).any(axis=1)]).any():
+            moved[nearest] = directions[nearest]
     return moved
 
 

@@ -63,7 +63,7 @@ class _Search:
             along = np.einsum("kpi,ki->kp", points.reshape(tried.shape), both)
             found = tried[np.arange(len(both)), along.argmax(axis=1)]
             reach /= _ZOOM
-        return found
+        return np.asarray(found)
 
     def calipers(self) -> Floats:
         """Directions (6, 3) of the ends of L, I and S."""

@@ -8,12 +8,12 @@ from synth.errors import SpecError
 from synth.geometry.mesh import Mesh
 from synth.rocks import quarry
 from synth.rocks.abrasion import abraded, flowed
-from synth.rocks.families.dented import Dented
 from synth.rocks.families.lumpy import LumpsUnion
 from synth.rocks.resample import even_mesh
 from synth.rocks.rounded import rounded_box
 from synth.rocks.sphere import unit_sphere
 from synth.rocks.star import star_mesh
+from synth.rocks.star.dents import Dented
 from synth.spec import convert_spec
 from synth.spec.rocks import RocksSpec
 

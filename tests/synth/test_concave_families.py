@@ -14,12 +14,12 @@ from synth.geometry.mesh import area_m2, volume_m3
 from synth.rocks import quarry
 from synth.rocks.ellipsoid import ellipsoid_area_m2
 from synth.rocks.families.broken import Broken
-from synth.rocks.families.dented import Dented
 from synth.rocks.families.lumpy import LumpsUnion
 from synth.rocks.families.vesicular import Pitted
 from synth.rocks.outlines import mesh_form, plane_across
 from synth.rocks.sphere import unit_sphere
 from synth.rocks.star import Made, draw_waves, fitted, star_mesh, star_rock
+from synth.rocks.star.dents import Dented
 from synth.rocks.star.touches import find_touches
 from synth.scene.scene import build_scene
 from synth.scene.settling import lowest_side, lying_turn

@@ -5,13 +5,14 @@ from functools import partial
 from typing import Annotated
 
 import numpy as np
-from msgspec import Meta, Struct
+from msgspec import Meta
 
 from synth.arrays import Floats, Ints
 from synth.rocks.family import Family, Make, own_options
 from synth.rocks.polyhedron import spread_normals
 from synth.rocks.sphere import unit_sphere
 from synth.rocks.star import Made, StarSurface, Waves, convex_core, draw_waves, fitted, star_rock
+from synth.rocks.star.dents import DentOptions, with_dents
 from synth.spec.limits import check_ranges
 from synth.spec.rocks import RocksSpec, Softness, Subdivisions
 
@@ -25,7 +26,7 @@ Left = Annotated[float, Meta(ge=0.15, le=1)]
 Rough = Annotated[float, Meta(ge=0, le=0.1)]
 
 
-class BrokenOptions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+class BrokenOptions(DentOptions, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """Fractures of the rocks of the family `broken`."""
 
     softness: tuple[Softness, Softness] = (0.1, 0.25)  # worn edges' radius over the half size
@@ -36,6 +37,7 @@ class BrokenOptions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
 
     def __post_init__(self) -> None:
         """Require ranges in rising order."""
+        super().__post_init__()
         check_ranges(self, "softness", "fractures", "left", "roughness")
 
 
@@ -80,8 +82,9 @@ def make_broken(half_axes_m: Floats, options: BrokenOptions, rng: np.random.Gene
         waves=tuple(draw_waves(_OCTAVES, fall=_FALL, rng=rng) for _ in range(count)),
         height=height,
     )
+    dented, hollows = with_dents(surface, options, rng)
     knobs = {"softness": softness, "fractures": float(count), "fracture_roughness": height}
-    return Made(fitted(surface, half_axes_m), knobs, smooth=height == 0.0, has_edges=True)
+    return Made(fitted(dented, half_axes_m), knobs | hollows, smooth=height == 0.0, has_edges=True)
 
 
 def _plan(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> Make:

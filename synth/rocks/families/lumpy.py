@@ -5,11 +5,12 @@ from functools import partial
 from typing import Annotated
 
 import numpy as np
-from msgspec import Meta, Struct
+from msgspec import Meta
 
 from synth.arrays import Floats, Ints
 from synth.rocks.family import Family, Make, own_options
 from synth.rocks.star import Made, fitted, star_rock
+from synth.rocks.star.dents import DentOptions, with_dents
 from synth.spec.limits import check_ranges
 from synth.spec.rocks import RocksSpec, Subdivisions
 
@@ -20,7 +21,7 @@ Offset = Annotated[float, Meta(ge=0, le=0.98)]
 Blend = Annotated[float, Meta(ge=0.02, le=0.5)]
 
 
-class LumpyOptions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+class LumpyOptions(DentOptions, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """Lumps of the rocks of the family `lumpy`."""
 
     lumps: tuple[Lumps, Lumps] = (6, 12)
@@ -30,6 +31,7 @@ class LumpyOptions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True
 
     def __post_init__(self) -> None:
         """Require ranges in rising order."""
+        super().__post_init__()
         check_ranges(self, "lumps", "offset", "blend")
 
 
@@ -64,8 +66,9 @@ def make_lumpy(half_axes_m: Floats, options: LumpyOptions, rng: np.random.Genera
     radii = rng.uniform(*_RADII, size=count)
     offsets = radii * rng.uniform(*options.offset, size=count)
     surface = LumpsUnion(offsets[:, None] * towards, radii, steep=1.0 / blend)
+    dented, hollows = with_dents(surface, options, rng)
     knobs = {"lumps": float(count), "blend": blend}
-    return Made(fitted(surface, half_axes_m), knobs, smooth=True, has_edges=False)
+    return Made(fitted(dented, half_axes_m), knobs | hollows, smooth=True, has_edges=False)
 
 
 def _plan(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> Make:

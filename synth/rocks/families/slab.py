@@ -5,11 +5,12 @@ from functools import partial
 from typing import Annotated
 
 import numpy as np
-from msgspec import Meta, Struct
+from msgspec import Meta
 
 from synth.arrays import Floats, Ints
 from synth.rocks.family import Family, Make, own_options
 from synth.rocks.star import Cuts, Made, draw_waves, fitted, star_rock
+from synth.rocks.star.dents import DentOptions, with_dents
 from synth.spec.limits import AxisRatio, check_ranges
 from synth.spec.rocks import RocksSpec, Softness, Subdivisions
 
@@ -24,7 +25,7 @@ Sides = Annotated[int, Meta(ge=3, le=12)]
 Wavy = Annotated[float, Meta(ge=0, le=0.1)]
 
 
-class SlabOptions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+class SlabOptions(DentOptions, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """Layers and sides of the rocks of the family `slab`."""
 
     thickness: tuple[AxisRatio, AxisRatio] = (0.25, 0.5)  # c/b, in place of rocks.c_over_b
@@ -36,6 +37,7 @@ class SlabOptions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True)
 
     def __post_init__(self) -> None:
         """Require ranges in rising order."""
+        super().__post_init__()
         check_ranges(self, "thickness", "layers", "sides", "softness", "waviness")
 
 
@@ -70,15 +72,14 @@ def make_slab(half_axes_m: Floats, options: SlabOptions, rng: np.random.Generato
         layers.append(Cuts(normals, distances, steep=1.0 / softness, waves=waves, height=height))
         back = rng.uniform(*_BACK, size=sides)
         reach = reach - np.where(rng.uniform(size=sides) > _FLUSH, back, _NEARLY)
+    dented, hollows = with_dents(Layered(tuple(layers)), options, rng)
     knobs = {
         "softness": softness,
         "waviness": height,
         "layers": float(count),
         "sides": float(sides),
     }
-    return Made(
-        fitted(Layered(tuple(layers)), half_axes_m), knobs, smooth=height == 0.0, has_edges=True
-    )
+    return Made(fitted(dented, half_axes_m), knobs | hollows, smooth=height == 0.0, has_edges=True)
 
 
 def _plan(spec: RocksSpec, half_axes_m: Floats, rng: np.random.Generator) -> Make:

@@ -5,11 +5,12 @@ from functools import partial
 from typing import Annotated
 
 import numpy as np
-from msgspec import Meta, Struct
+from msgspec import Meta
 
 from synth.arrays import Floats, Ints
 from synth.rocks.family import Family, Make, own_options
 from synth.rocks.star import Made, StarSurface, convex_core, fitted, star_rock
+from synth.rocks.star.dents import DentOptions, with_dents
 from synth.spec.limits import Fraction, check_ranges
 from synth.spec.rocks import RocksSpec, Softness, Subdivisions
 
@@ -20,7 +21,7 @@ Radius = Annotated[float, Meta(ge=0.02, le=0.5)]
 Power = Annotated[float, Meta(ge=1.1, le=6)]
 
 
-class VesicularOptions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+class VesicularOptions(DentOptions, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """Pits of the rocks of the family `vesicular`."""
 
     softness: tuple[Softness, Softness] = (0.03, 0.1)  # edges' radius over the half size
@@ -32,6 +33,7 @@ class VesicularOptions(Struct, frozen=True, forbid_unknown_fields=True, kw_only=
 
     def __post_init__(self) -> None:
         """Require ranges in rising order."""
+        super().__post_init__()
         check_ranges(self, "softness", "porosity", "pit_radius", "depth")
 
 
@@ -75,7 +77,8 @@ def make_vesicular(
     softness, porosity = rng.uniform(*options.softness), rng.uniform(*options.porosity)
     cuts = int(rng.integers(_CUTS[0], _CUTS[1] + 1))
     core = convex_core(cuts=cuts, softness=softness, spread=_SPREAD, rng=rng)
-    surface = fitted(core, half_axes_m)
+    dented, hollows = with_dents(core, options, rng)
+    surface = fitted(dented, half_axes_m)
     size_m = float(np.cbrt(np.prod(half_axes_m)))
     radii_m = size_m * _pit_radii(porosity, options, rng)
     towards = rng.standard_normal((len(radii_m), 3))
@@ -85,7 +88,7 @@ def make_vesicular(
     lifted_m = np.hypot(reach_m, radii_m) + shallower_m
     pitted = Pitted(surface, floor_m * (lifted_m / reach_m)[:, None], radii_m)
     knobs = {"softness": softness, "porosity": porosity, "pits": float(len(radii_m))}
-    return Made(pitted, knobs, smooth=not len(radii_m), has_edges=True)
+    return Made(pitted, knobs | hollows, smooth=not len(radii_m), has_edges=True)
 
 
 def _pit_radii(porosity: float, options: VesicularOptions, rng: np.random.Generator) -> Floats:

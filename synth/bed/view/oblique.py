@@ -2,7 +2,9 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,6 +18,7 @@ from synth.bed.view.silhouette import Silhouette, silhouette
 from synth.bed.view.whole import WholeOutline, polygon_outline
 
 _UNDER = 0.5  # samples behind the height field's surface at which a point is under an overhang
+_SLIVER_PX = 2  # half the width of lit gaps that do not light what lies under an overhang
 _LIT = np.float32(-1e6)  # height of the shadow where there is none
 
 
@@ -28,6 +31,7 @@ class ObliqueView:
     grain: NDArray[np.int32]  # (rows, cols), 0 for the ground, else 1 + the grain's index
     height_px: Singles  # (rows, cols), of the points in sight
     tint: Singles  # (rows, cols), log-brightness of the ground
+    under: NDArray[np.bool_]  # (rows, cols), whether the points lie under an overhang
     lit_at: Ints  # (rows, cols), flat indices of the bed's samples with the light on the points
     silhouettes: Sequence[Silhouette]
 
@@ -46,9 +50,13 @@ class ObliqueView:
             bed, per_px, azimuth_rad=light.azimuth_rad, elevation_rad=light.elevation_rad
         )
         shadow = np.where(depth > 0.0, bed + depth, _LIT)
-        below = np.maximum(shadow.ravel()[self.lit_at] - self.height_px, np.float32(0.0))
+        # Slivers of light in front of an overhang would be drawn out to streaks under it.
+        side = 2 * _SLIVER_PX * per_px + 1
+        soft = cv2.dilate(shadow, np.ones((1, side), dtype=np.uint8))
+        below = np.maximum(self._lit(shadow, soft) - self.height_px, np.float32(0.0))
         sunlit = sunlit_share(below, per_px)
-        sky = sky_share(bed, per_px).ravel()[self.lit_at]
+        share = sky_share(bed, per_px)
+        sky = self._lit(share, cv2.blur(share, (side, 1)))
         height = self.height_px
         for part in relief_px:
             height = height + part
@@ -57,6 +65,12 @@ class ObliqueView:
         arriving = arriving_light(light, slopes, sunlit=sunlit, sky=sky, albedo=albedo)
         up = np.ascontiguousarray(slopes[..., 2])
         return LitRelief(height, normals, up, sunlit, arriving)
+
+    def _lit(self, bed: Singles, evened: NDArray[Any]) -> Singles:
+        """Values of the bed's samples for the points in sight, evened out under overhangs."""
+        found = bed.ravel()[self.lit_at]
+        found[self.under] = evened.ravel()[self.lit_at[self.under]]
+        return found
 
 
 def oblique_view(
@@ -85,27 +99,19 @@ def oblique_view(
         grain[window][over] = number
     place = frame.bed_rows(height)
     row = np.asarray(np.rint(place).clip(0, len(tint) - 1), dtype=np.int64)
+    met = _surface(field.height_px, frame)
+    front = met.link // frame.shape[1]
+    under = place < front + met.share - np.float32(_UNDER)
     return ObliqueView(
         field=field,
         frame=frame,
         grain=grain,
         height_px=height,
         tint=np.take_along_axis(tint, row, axis=0),
-        lit_at=_lit_at(field, frame, place, row),
+        under=under,
+        lit_at=np.where(under, front + 1, row) * frame.shape[1] + np.arange(frame.shape[1]),
         silhouettes=silhouettes,
     )
-
-
-def _lit_at(field: HeightField, frame: ObliqueFrame, place: Singles, row: Ints) -> Ints:
-    """Samples of the bed whose light the points in sight get.
-
-    The points lie on rows `place` of the bed, nearest to the samples `row`.
-    """
-    columns = frame.shape[1]
-    met = _surface(field.height_px, frame)
-    front = met.link // columns
-    under = place < front + met.share - np.float32(_UNDER)
-    return np.asarray(np.where(under, front + 1, row) * columns + np.arange(columns))
 
 
 def _surface(height_px: Singles, frame: ObliqueFrame) -> Crossings:

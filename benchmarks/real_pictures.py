@@ -12,12 +12,14 @@ from skimage import data
 
 from synth.bed.make import make_tile
 from synth.camera.camera import Pose
-from synth.light import light_scene
+from synth.light.spec_stage import spec_stage
 from synth.render import open_renderer, render_view
 from synth.scene.scene import build_scene
+from synth.sensor.development import draw_development
 from synth.sensor.exposure import eight_bits, take_picture
 from synth.spec import SceneSpec, convert_spec
 from synth.spec.bed import BedSpec
+from synth.spec.site import SITES, with_site
 
 Bytes = NDArray[np.uint8]
 
@@ -84,13 +86,42 @@ def plain_pictures(numbers: range) -> Iterator[Bytes]:
         yield scene_picture(convert_spec({**PLAIN, "seed": seed}, where="plain"))
 
 
+# What the rough sites have in common: rocks in sight of a lander's or a rover's camera.
+SITE: dict[str, Any] = {
+    "rocks": {"count": 3, "diameter_m": [0.12, 0.35], "spacing": 1.0},
+    "camera": {"preset": "imp"},
+    "views": {"count": 1},
+    "image": {"colour": True, "tone": "gamma", "gamma": 1.3, "blur_px": [0.2, 0.5]},
+    "light": {"elevation_deg": [30, 60], "ambient": [0.5, 0.65]},
+    "sensor": {"full_well_e": 2e4, "jpeg_quality": 90},
+    "renderer": "embree",
+}
+_FARTHEST_M = 5.0
+
+
+def site_pictures(numbers: range) -> Iterator[Bytes]:
+    """Yield colour pictures of the rough sites in turn, from distances of 3 to 5 m."""
+    rough = [site for site in SITES if site != "plain"]
+    for seed in numbers:
+        distance_m = _FARTHEST_M - 0.5 * (seed % 5)
+        camera = {
+            **SITE["camera"],
+            "distance_m": distance_m,
+            "elevation_deg": 20.0 + 5.0 * (seed % 4),
+        }
+        said = {**SITE, "site": rough[seed % len(rough)], "camera": camera, "seed": seed}
+        yield scene_picture(convert_spec(with_site(said, where="site"), where="site"))
+
+
 def scene_picture(spec: SceneSpec) -> Bytes:
-    """Picture (rows, cols, 3) of a scene's first view, as its sensor takes it."""
+    """Picture (rows, cols, 3) of a scene's first view, as its camera takes and develops it."""
     scene = build_scene(spec, 0)
-    stage = light_scene(scene, spec.sun, spec.surface)
+    stage = spec_stage(spec, 0, scene)
     renderer = open_renderer("embree", stage, scene.camera)
     pose: Pose = scene.poses[0]
     view = render_view(renderer, stage, scene.camera, pose, supersample=spec.camera.supersample)
     rng = np.random.default_rng(spec.seed)
-    picture = eight_bits(take_picture(view.light, spec.sensor, rng=rng))
-    return np.repeat(picture[..., None], 3, axis=-1)
+    development = draw_development(spec, scene=0, view=0)
+    light = view.light if view.colour is None else view.colour
+    picture = eight_bits(take_picture(light, spec.sensor, rng=rng, development=development))
+    return picture if view.colour is not None else np.repeat(picture[..., None], 3, axis=-1)

@@ -7,13 +7,14 @@ from case import Case, Column, Table
 from numpy.typing import NDArray
 from picture_statistics import STATISTICS, descriptor, patches, statistics
 from real_or_made import area_under_curve, train
-from real_pictures import PHOTOGRAPHS, Photograph, bed_pictures, plain_pictures
+from real_pictures import PHOTOGRAPHS, Photograph, bed_pictures, plain_pictures, site_pictures
 
 Floats = NDArray[np.float64]
 Bytes = NDArray[np.uint8]
 
 MADE: dict[str, Callable[[range], Iterator[Bytes]]] = {
     "plain scenes": plain_pictures,
+    "sites": site_pictures,
     "beds": bed_pictures,
 }
 FIRST_REPORTED = 10_000  # seed: those below 1000 train the classifier and fit the generator

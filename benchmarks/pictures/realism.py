@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
-from real_pictures import PHOTOGRAPHS, bed_pictures, plain_pictures
+from real_pictures import PHOTOGRAPHS, bed_pictures, plain_pictures, site_pictures
 
 Bytes = NDArray[np.uint8]
 
@@ -29,6 +29,7 @@ def draw(folder: Path) -> None:
     rows = [[photo.read() for photo in PHOTOGRAPHS["gravel"]]]
     rows.append(list(bed_pictures(range(FIRST, FIRST + 5))))
     rows.append([photo.read() for photo in PHOTOGRAPHS["Mars"]])
+    rows.append(list(site_pictures(range(FIRST, FIRST + 5))))
     rows.append(list(plain_pictures(range(FIRST, FIRST + 5))))
     blank = np.full((SIDE_PX, SIDE_PX, 3), 255, np.uint8)
     columns = zip_longest(*rows, fillvalue=blank)

@@ -32,9 +32,9 @@ def rock_forms(*, families: int = len(FAMILIES), rocks: int = 12) -> list[Table]
     scans = [real["scans"][name] for name in sorted(real["scans"])]
     held = scans[HELD_OUT]
     rows = [
-        _row("scans, fitted to", [scan for scan in scans if scan not in held]),
-        _row("scans, held out", held),
-        _row("gravel, outlines", real["grains"]),
+        form_row("scans, fitted to", [scan for scan in scans if scan not in held]),
+        form_row("scans, held out", held),
+        form_row("gravel, outlines", real["grains"]),
     ]
     for family in FAMILIES[:families]:
         spec = RocksSpec(
@@ -47,12 +47,13 @@ def rock_forms(*, families: int = len(FAMILIES), rocks: int = 12) -> list[Table]
             **({"options": {"subdivisions": 5}} if family in NEW else {}),
         )
         made = quarry(spec, rng=np.random.default_rng(SEED))
-        rows.append(_row(family, [solid_statistics(rock.mesh) for rock in made]))
+        rows.append(form_row(family, [solid_statistics(rock.mesh) for rock in made]))
     columns = (Column("rocks"), Column("number", "", "d"), *map(Column, HEADS.values()))
     return [Table(columns, rows)]
 
 
-def _row(name: str, found: Sequence[dict[str, float]]) -> list[Cell]:
+def form_row(name: str, found: Sequence[dict[str, float]]) -> list[Cell]:
+    """Row of a group of rocks: number, median and quartiles of each statistic."""
     cells: list[Cell] = [name, len(found)]
     for key in HEADS:
         if key not in found[0]:

@@ -5,6 +5,7 @@
 #   3.13     the same on Python 3.13, where this machine has one
 # Usage: tools/check_wheel.sh [oldest|newest|3.13]...
 set -euo pipefail
+unset PYTHONDONTWRITEBYTECODE # pip leaves modules uncompiled below, so the first import keeps them
 cd "$(dirname "$0")/.."
 
 CHECKOUT=$PWD

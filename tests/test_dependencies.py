@@ -12,7 +12,8 @@ from tools.import_graph import PACKAGES, ROOT, Source, imported_names, read_sour
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 FOLDERS = ("tests", "tools", "benchmarks")
 # tools and benchmarks run as scripts import each other by their bare names
-SCRIPTS = {path.stem for name in ("tools", "benchmarks") for path in (ROOT / name).iterdir()}
+SCRIPT_FOLDERS = ("tools", "benchmarks", "benchmarks/pictures")
+SCRIPTS = {path.stem for name in SCRIPT_FOLDERS for path in (ROOT / name).iterdir()}
 OWN = {*PACKAGES, *FOLDERS, *SCRIPTS}
 # a plug-in for pytest is only ever imported by pytest
 BROUGHT_BY_THE_HOST = {"pytest"}

@@ -5,6 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from cases.dent_forms import DENTS
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 from PIL import Image
@@ -98,8 +99,10 @@ def rough(base: RockModel, rms: float, degrees: tuple[int, int] = (5, 25)) -> Ro
     return with_relief(base, relief_rms=rms, degrees=degrees, rng=np.random.default_rng(8))
 
 
-def concave(family: str, seed: int, abrasion: float | None = None) -> RockModel:
-    """Return a rock of a family that is not convex, worn by an amount if one is given."""
+def concave(
+    family: str, seed: int, abrasion: float | None = None, dents: tuple[int, int] | None = None
+) -> RockModel:
+    """Return a rock of a family that is not convex, worn and with dents where they are given."""
     spec = RocksSpec(
         count=1,
         family=family,
@@ -107,6 +110,7 @@ def concave(family: str, seed: int, abrasion: float | None = None) -> RockModel:
         b_over_a=(0.8, 0.9),
         c_over_b=(0.7, 0.85),
         **({} if abrasion is None else {"abrasion": (abrasion, abrasion)}),
+        **({} if dents is None else {"options": {"dents": dents}}),
     )
     return quarry(spec, rng=np.random.default_rng(seed))[0]
 
@@ -161,6 +165,10 @@ def sheets(scans: list[Path]) -> dict[str, list[Callable[[], RockModel]]]:
             family: [lambda family=family, seed=seed: concave(family, seed) for seed in range(5)]
             for family in ("dented", "lumpy", "broken", "vesicular", "slab")
         },
+        "with-dents": [
+            *(lambda name=name: concave(name, 1, dents=DENTS[name]) for name in DENTS),
+            lambda: scan(str(scans[0]), diameter_m=0.38),
+        ],
         "worn": [
             lambda amount=amount: concave("broken", 1, amount)
             for amount in (0.0, 0.1, 0.25, 0.5, 1.0)

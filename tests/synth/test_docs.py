@@ -106,9 +106,8 @@ def test_the_options_of_the_concave_families_have_their_defaults():
     told = {}
     for family, keys, defaults, _ in rows(part):
         values = ast.literal_eval(f"[{defaults}]")
-        told.setdefault(names(family)[0], {"subdivisions": 6}).update(
-            zip(names(keys), values, strict=True)
-        )
+        for name in names(family):
+            told.setdefault(name, {"subdivisions": 6}).update(zip(names(keys), values, strict=True))
     assert len(told) == 5
     for family, found in told.items():
         assert found == defaults_of(FAMILIES.find(family).options())

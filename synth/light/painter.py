@@ -15,21 +15,17 @@ from synth.camera.camera import Pose, RenderCamera
 from synth.light.air import Air
 from synth.light.body import Body
 from synth.light.colour import Appearance
-from synth.light.fine_relief import FineRelief
 from synth.light.mast import MastShadow
-from synth.light.photometry import EXPOSURE, SKY, light, sun_strength, towards_sun
+from synth.light.photometry import SKY
 from synth.light.rays import Surfaces, directions
-from synth.light.reflectance import Reflectance
 from synth.light.samples import Samples, stretch, width_m
-from synth.light.shade import ShadowMap
-from synth.light.wetness import highlight
+from synth.light.shading import Shading
 from synth.spec.surface import SurfaceSpec
 from synth.spec.view import SunSpec
 
 Indices = NDArray[np.int64]
 
 _ON_PLANE = 3e-4  # of the depth: farther from the plane than this, a point is on something else
-_OFF_SURFACE_M = 1.5e-3  # a shadow ray starts this far out, above its own facet's bulge
 _EDGE = 12.0 / 255.0  # more contrast than this between neighbours is an edge
 _AT_ONCE = 1 << 17  # samples; eight times as many leave the cache and take longer
 
@@ -51,28 +47,25 @@ class Painter:
         haze_m: float | None = None,
     ) -> None:
         """Take the bodies, their light and its colours; without colours it paints grey."""
-        self.surfaces = Surfaces([*rocks, *ground, *things])
         self._rocks = len(rocks)
         self._plain = len(ground) == 1
-        self._mast = mast
-        self._sun, self._surface = sun, surface
-        self._relief = FineRelief([*rocks, *ground], rocks=len(rocks))
         self._plane = None if plane_normal is None else plane_normal.astype(np.float32)
-        self._towards_sun = towards_sun(sun).astype(np.float32)
-        self._reflectance = Reflectance(
-            rocks, ground, surface, things=things, appearance=appearance
+        self.shading = Shading(
+            rocks,
+            ground,
+            sun,
+            surface,
+            level=plane_normal is not None,
+            appearance=appearance,
+            things=things,
+            mast=mast,
         )
-        self._wetness = 0.0 if appearance is None else appearance.wetness
-        self._sun_colour, self._sky_colour = (
-            np.ones((2, 1), dtype=np.float32)
-            if appearance is None
-            else np.stack([appearance.sun, appearance.sky]).astype(np.float32)
-        )
-        self._air = Air(self._sky_colour, sun.ambient, haze_m)
-        level = plane_normal is not None
-        self._shadow_map = ShadowMap(
-            [*rocks, *things] if level else [], ground[1:] if level else [], towards_sun(sun)
-        )
+        self._air = Air(self.shading.sky_colour, sun.ambient, haze_m)
+
+    @property
+    def surfaces(self) -> Surfaces:
+        """Surfaces that rays meet."""
+        return self.shading.surfaces
 
     def paint(
         self,
@@ -109,7 +102,7 @@ class Painter:
     @property
     def channels(self) -> int:
         """The number of channels of the light: 3 in colour, 1 in grey."""
-        return len(self._sky_colour)
+        return len(self.shading.sky_colour)
 
     def _centres(
         self,
@@ -139,7 +132,7 @@ class Painter:
                 width_m=width_m(camera, depth[here]),
                 stretch=stretch(rays[here] @ self._plane),
             )
-            bright[here], value[here] = self._shade(samples, eye_m)
+            bright[here], value[here] = self.shading.light_at(samples, eye_m)
         rest = np.flatnonzero(there & ~flat)
         bright[rest], value[rest] = self._seen(camera, eye_m, rays[rest], 1)
         return bright.reshape(depth_m.shape), value.reshape(*depth_m.shape, self.channels)
@@ -186,63 +179,10 @@ class Painter:
             width_m=width_m(camera, hits.length[here]) / np.float32(factor),
             stretch=stretch(facing),
         )
-        bright[here], value[here] = self._shade(samples, eye_m)
+        bright[here], value[here] = self.shading.light_at(samples, eye_m)
         distance_m = hits.length[here] * np.linalg.norm(rays[here], axis=1)
         value[here] = self._air.veiled(value[here], distance_m)
         return bright, value
-
-    def _shade(self, samples: Samples, eye_m: Singles) -> tuple[Singles, Singles]:
-        """Brightness of white at samples, (n,), and the light that they give back, (n, k).
-
-        Relief finer than the triangles is no edge: its body counts as level there, lit or not.
-        """
-        shaded, shown = self._shaded(samples, eye_m), samples
-        sky, direct = self._light(samples, shaded)
-        bright = sky + direct
-        if self._relief:
-            away = np.flatnonzero(samples.normals @ self._towards_sun <= 0.0)
-            level = self._light(self._relief.levelled(samples), np.concatenate([shaded, away]))
-            bright, shown = level[0] + level[1], self._relief.refined(samples)
-            dark = self._relief.dark(samples, away)
-            sky, direct = self._light(shown, np.concatenate([shaded, dark]))
-        arriving = sky[:, None] * self._sky_colour + direct[:, None] * self._sun_colour
-        given_back = np.float32(EXPOSURE) * arriving * self._reflectance.at(samples, shown.normals)
-        if self._wetness > 0.0:
-            given_back += self._highlights(shown, direct)[:, None] * self._sun_colour
-        return bright, given_back
-
-    def _shaded(self, samples: Samples, eye_m: Singles) -> Indices:
-        """Samples that a body keeps from the sun, of those turned towards it."""
-        if not self._sun.shadows:
-            return np.empty(0, dtype=np.int64)
-        normals = samples.normals
-        incidence = np.asarray(normals @ self._towards_sun)
-        tried = np.flatnonzero((incidence > 0.0) & self._shadow_map.possible(samples.points_m))
-        starts_m = samples.points_m[tried] + np.float32(_OFF_SURFACE_M) * normals[tried]
-        shaded = tried[self.surfaces.blocked(starts_m, self._towards_sun)]
-        if self._mast is None:
-            return shaded
-        incidence[shaded] = 0.0
-        lit = np.flatnonzero(incidence > 0.0)
-        blocked = self._mast.blocked(samples.points_m[lit], eye_m, self._towards_sun)
-        return np.concatenate([shaded, lit[blocked]])
-
-    def _light(self, samples: Samples, shaded: Indices) -> tuple[Singles, Singles]:
-        """Light of sky and sun on samples, (n,) each, some of them in shadow."""
-        incidence = np.asarray(samples.normals @ self._towards_sun)
-        incidence[shaded] = 0.0
-        facing = np.einsum("ij,ij->i", samples.directions, samples.normals)
-        emission = -facing / np.linalg.norm(samples.directions, axis=1)
-        return light(samples.normals[:, 2], incidence, emission, self._sun, self._surface)
-
-    def _highlights(self, samples: Samples, direct: Singles) -> Singles:
-        """Sun's highlights in wet surfaces, (n,); none where no sunlight falls."""
-        found = np.zeros(len(direct), dtype=np.float32)
-        lit = np.flatnonzero(direct > 0.0)
-        sights = -samples.directions[lit]
-        sights = sights / np.linalg.norm(sights, axis=1, keepdims=True)
-        found[lit] = highlight(samples.normals[lit], sights, self._towards_sun)
-        return np.float32(self._wetness * sun_strength(self._sun)) * found
 
 
 def _jumps(bright: Singles, labels: NDArray[np.uint16]) -> NDArray[np.bool_]:

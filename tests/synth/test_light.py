@@ -53,7 +53,7 @@ def test_the_shadow_of_a_ball_is_the_ellipse_of_the_sun():
     sure = np.abs(passing_m - RADIUS_M) > 5e-4
     np.testing.assert_array_equal(found[sure], (passing_m < RADIUS_M)[sure])
     # The picture from the sun forgets no shadow.
-    assert painter._shadow_map.possible(points)[found].all()
+    assert painter.shading.shadow_map.possible(points)[found].all()
 
 
 def test_a_rock_shades_another_rock():

@@ -1,6 +1,6 @@
 """Statistics of pictures that tell made ones from photographs, and descriptors of patches."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import cv2
 import numpy as np
@@ -48,6 +48,11 @@ def statistics(patch: Bytes) -> Floats:
             ((high - low) / np.maximum(high, 1.0)).mean() if coloured else np.nan,
         ]
     )
+
+
+def descriptors(found: Iterable[Bytes]) -> Floats:
+    """Descriptors (patches, n) of patches."""
+    return np.array([descriptor(patch) for patch in found])
 
 
 def descriptor(patch: Bytes) -> Floats:

@@ -3,6 +3,7 @@
 import cv2
 import numpy as np
 from case import Case, Column, Table
+from msgspec import structs
 from timing import best_of
 
 from synth.bed.make import make_tile
@@ -10,15 +11,21 @@ from synth.bed.relief.bodies import body_library
 from synth.spec.bed import BedGroundSpec, BedSpec, GrainsSpec
 
 
+def crowded(side_px: int, bodies: int) -> BedSpec:
+    """Bed of grains of 17 px, about 200 in sight on a tile of 256 px."""
+    return BedSpec(
+        width_px=side_px,
+        height_px=side_px,
+        bodies=bodies,
+        grains=GrainsSpec(median_px=(17.0, 17.0), spread=(0.4, 0.4), cover=(1.6, 1.6)),
+        ground=BedGroundSpec(filled=0.0),
+    )
+
+
 def tiles(*, side_px: int = 256, bodies: int = 250, rounds: int = 5) -> list[Table]:
     """Time tiles of about 200 grains in sight, without the stock of bodies, made once a process."""
-    grains = GrainsSpec(median_px=(17.0, 17.0), spread=(0.4, 0.4), cover=(1.6, 1.6))
-    ground = BedGroundSpec(filled=0.0)
-    spec = BedSpec(width_px=side_px, height_px=side_px, bodies=bodies, grains=grains, ground=ground)
-    plain = BedSpec(
-        width_px=side_px, height_px=side_px, bodies=bodies, grains=grains, ground=ground,
-        supersample=1,
-    )  # fmt: skip
+    spec = crowded(side_px, bodies)
+    plain = structs.replace(spec, supersample=1)
     numbers = range(8)
     bed = make_tile(spec, 0)
     found = {
@@ -38,8 +45,6 @@ def tiles(*, side_px: int = 256, bodies: int = 250, rounds: int = 5) -> list[Tab
         for number in numbers:
             make_tile(one, number)
 
-    threads = cv2.getNumThreads()
-    cv2.setNumThreads(1)
     times = best_of(
         rounds,
         {
@@ -48,7 +53,6 @@ def tiles(*, side_px: int = 256, bodies: int = 250, rounds: int = 5) -> list[Tab
             "floor": floor,
         },
     )
-    cv2.setNumThreads(threads)
     rows = [
         (
             name,

@@ -1,10 +1,8 @@
 """Form of rocks with as many dents as scanned rocks have, beside the scans."""
 
-import json
-
 import numpy as np
 from case import Case, Column, Table
-from cases.rock_forms import HEADS, HELD_OUT, SEED, STATISTICS, form_row
+from cases.rock_forms import HEADS, SEED, form_row, scan_rows
 from rock_statistics import solid_statistics
 
 from synth.rocks import quarry
@@ -16,13 +14,7 @@ DENTS = {"lumpy": (60, 100), "broken": (40, 90), "vesicular": (35, 80), "slab": 
 
 def dent_forms(*, families: int = len(DENTS), rocks: int = 8) -> list[Table]:
     """Median and quartiles of each statistic, of scans and of families with dents."""
-    real = json.loads(STATISTICS.read_text(encoding="utf-8"))["scans"]
-    scans = [real[name] for name in sorted(real)]
-    held = scans[HELD_OUT]
-    rows = [
-        form_row("scans, fitted to", [scan for scan in scans if scan not in held]),
-        form_row("scans, held out", held),
-    ]
+    rows = scan_rows()
     for family, dents in list(DENTS.items())[:families]:
         spec = RocksSpec(
             count=rocks,

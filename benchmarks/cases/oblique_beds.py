@@ -2,14 +2,14 @@
 
 from functools import partial
 
-import cv2
 import numpy as np
 from case import Case, Column, Table
+from cases.beds import crowded
 from msgspec import structs
 from timing import best_of
 
 from synth.bed.make import make_tile
-from synth.spec.bed import BedGroundSpec, BedSpec, GrainsSpec
+from synth.spec.bed import BedSpec
 
 _TILTS_DEG = (0.0, 20.0, 45.0, 60.0, 70.0)
 
@@ -18,11 +18,7 @@ def tilted(
     *, side_px: int = 256, bodies: int = 250, tiles: int = 6, rounds: int = 4
 ) -> list[Table]:
     """Time tiles whose grains have a median of 17 px; their stock is made before."""
-    spec = BedSpec(
-        width_px=side_px, height_px=side_px, bodies=bodies,
-        grains=GrainsSpec(median_px=(17.0, 17.0), spread=(0.4, 0.4), cover=(1.6, 1.6)),
-        ground=BedGroundSpec(filled=0.0),
-    )  # fmt: skip
+    spec = crowded(side_px, bodies)
     specs = {tilt: structs.replace(spec, tilt_deg=(tilt, tilt)) for tilt in _TILTS_DEG}
     seen = {
         tilt: np.mean([len(make_tile(one, number).rocks) for number in range(tiles)])
@@ -33,10 +29,7 @@ def tilted(
         for number in range(tiles):
             make_tile(one, number)
 
-    threads = cv2.getNumThreads()
-    cv2.setNumThreads(1)
     times = best_of(rounds, {f"{tilt:g}": partial(make, one) for tilt, one in specs.items()})
-    cv2.setNumThreads(threads)
     rows = [
         (
             tilt,

@@ -3,7 +3,7 @@
 import numpy as np
 from case import Case, Column, Table
 from numpy.typing import NDArray
-from picture_statistics import descriptor, patches
+from picture_statistics import descriptors, patches
 from real_or_made import area_under_curve, train
 from real_pictures import PHOTOGRAPHS
 
@@ -37,8 +37,7 @@ def photograph_kinds(*, pairs: int = len(PAIRS)) -> list[Table]:
 
 def _described(*names: str) -> Floats:
     photographs = {photo.name: photo for kind in PHOTOGRAPHS.values() for photo in kind}
-    found = [patch for name in names for patch in patches(photographs[name].read())]
-    return np.array([descriptor(patch) for patch in found])
+    return descriptors(patch for name in names for patch in patches(photographs[name].read()))
 
 
 PHOTOGRAPH_KINDS_CASE = Case(

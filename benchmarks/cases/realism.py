@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 import numpy as np
 from case import Case, Column, Table
 from numpy.typing import NDArray
-from picture_statistics import STATISTICS, descriptor, patches, statistics
+from picture_statistics import STATISTICS, descriptors, patches, statistics
 from real_or_made import area_under_curve, train
 from real_pictures import PHOTOGRAPHS, Photograph, bed_pictures, plain_pictures, site_pictures
 
@@ -23,7 +23,7 @@ FIRST_REPORTED = 10_000  # seed: those below 1000 train the classifier and fit t
 def realism(*, pictures: int = 12, first: int = 0) -> list[Table]:
     """Compare made pictures with real ones: medians and quartiles, and the area under the curve."""
     real = {photo: list(patches(photo.read())) for kind in PHOTOGRAPHS.values() for photo in kind}
-    known = {photo: _described(found) for photo, found in real.items()}
+    known = {photo: descriptors(found) for photo, found in real.items()}
     columns = (Column("pictures"), Column("patches", "", ".0f"), *map(Column, STATISTICS))
     summaries = [
         _summary(f"real: {kind}", [patch for photo in photos for patch in real[photo]])
@@ -34,7 +34,7 @@ def realism(*, pictures: int = 12, first: int = 0) -> list[Table]:
         fitted = _all_patches(make(range(first, first + pictures)))
         reported = _all_patches(make(range(FIRST_REPORTED, FIRST_REPORTED + pictures)))
         summaries.append(_summary(f"made: {name}", reported))
-        made = _described(fitted), _described(reported)
+        made = descriptors(fitted), descriptors(reported)
         judged += [_judged(name, kind, known, *made) for kind in PHOTOGRAPHS]
     areas = (
         Column("made"),
@@ -52,10 +52,6 @@ def realism(*, pictures: int = 12, first: int = 0) -> list[Table]:
 
 def _all_patches(pictures: Iterable[Bytes]) -> list[Bytes]:
     return [patch for picture in pictures for patch in patches(picture)]
-
-
-def _described(found: Iterable[Bytes]) -> Floats:
-    return np.array([descriptor(patch) for patch in found])
 
 
 def _summary(name: str, found: list[Bytes]) -> tuple[str | int, ...]:

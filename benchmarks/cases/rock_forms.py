@@ -3,6 +3,7 @@
 import json
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from case import Case, Cell, Column, Table
@@ -28,14 +29,7 @@ HEADS = {
 
 def rock_forms(*, families: int = len(FAMILIES), rocks: int = 12) -> list[Table]:
     """Median and quartiles of each statistic, of real rocks and of made ones."""
-    real = json.loads(STATISTICS.read_text(encoding="utf-8"))
-    scans = [real["scans"][name] for name in sorted(real["scans"])]
-    held = scans[HELD_OUT]
-    rows = [
-        form_row("scans, fitted to", [scan for scan in scans if scan not in held]),
-        form_row("scans, held out", held),
-        form_row("gravel, outlines", real["grains"]),
-    ]
+    rows = [*scan_rows(), form_row("gravel, outlines", real_statistics()["grains"])]
     for family in FAMILIES[:families]:
         spec = RocksSpec(
             count=rocks,
@@ -50,6 +44,23 @@ def rock_forms(*, families: int = len(FAMILIES), rocks: int = 12) -> list[Table]
         rows.append(form_row(family, [solid_statistics(rock.mesh) for rock in made]))
     columns = (Column("rocks"), Column("number", "", "d"), *map(Column, HEADS.values()))
     return [Table(columns, rows)]
+
+
+def real_statistics() -> dict[str, Any]:
+    """Statistics of scans by name, and of grains."""
+    found: dict[str, Any] = json.loads(STATISTICS.read_text(encoding="utf-8"))
+    return found
+
+
+def scan_rows() -> list[list[Cell]]:
+    """Rows of the scans that generators are fitted to, and of those held out."""
+    by_name = real_statistics()["scans"]
+    scans = [by_name[name] for name in sorted(by_name)]
+    held = scans[HELD_OUT]
+    return [
+        form_row("scans, fitted to", [scan for scan in scans if scan not in held]),
+        form_row("scans, held out", held),
+    ]
 
 
 def form_row(name: str, found: Sequence[dict[str, float]]) -> list[Cell]:

@@ -7,6 +7,7 @@ from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
 from synth.arrays import Floats
+from synth.geometry.vectors import perpendicular
 
 _MAX_NORMALS = 48  # hull facets tried as a side of the box
 _TURNS = 30  # turns tried about each normal, over a right angle
@@ -89,9 +90,7 @@ def _thinned(corners_m: Floats) -> Floats:
 def _starts(normals: Floats, corners_m: Floats, margin_m: float) -> Floats:
     """Best turn about each normal, (k, 3, 3) rotations, smallest box first."""
     normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
-    second = np.cross(normals, np.eye(3)[np.argmin(np.abs(normals), axis=1)])
-    second /= np.linalg.norm(second, axis=1, keepdims=True)
-    third = np.cross(normals, second)
+    second, third = perpendicular(normals)
     turns_rad = np.arange(2 * _TURNS) * (np.pi / 2.0 / _TURNS)
     across = np.stack([second @ corners_m.T, third @ corners_m.T], axis=1)  # (k, 2, n)
     along = np.column_stack([np.cos(turns_rad), np.sin(turns_rad)]) @ across  # (k, turns, n)

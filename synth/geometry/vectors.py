@@ -1,4 +1,4 @@
-"""Products of single vectors, to the bit NumPy's, without the time its general functions take."""
+"""Products of vectors; those of single ones are NumPy's to the bit, in a fraction of the time."""
 
 import math
 
@@ -16,6 +16,13 @@ def cross(first: Floats, second: Floats) -> Floats:
 def length(vector: Floats) -> float:
     """Euclidean length of a vector (n,)."""
     return math.sqrt(vector @ vector)
+
+
+def perpendicular(ways: Floats) -> tuple[Floats, Floats]:
+    """Unit vectors (n, 3) at right angles to unit vectors (n, 3) and to each other."""
+    first = np.cross(ways, np.eye(3)[np.argmin(np.abs(ways), axis=1)])
+    first /= np.linalg.norm(first, axis=1, keepdims=True)
+    return first, np.cross(ways, first)
 
 
 def unit_rows(vectors: Floats) -> Floats:

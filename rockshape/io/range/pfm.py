@@ -22,7 +22,7 @@ def read_pfm(file: "InputFile", _: ImageInfo) -> RangeRaster:
     """
     header = HEADER.match(file.data)
     if header is None:
-        raise ValueError("a header that does not end")
+        raise ValueError("a header without magic number, columns, rows and scale")
     width = WIDTHS[header[1]]
     cols, rows, scale = int(header[2]), int(header[3]), float(header[4])
     if cols <= 0 or rows <= 0 or not (np.isfinite(scale) and scale):

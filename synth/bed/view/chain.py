@@ -27,7 +27,7 @@ class Crossings:
 
 
 def surface_envelope(rows: Singles) -> Singles:
-    """Envelope of a height field whose points, far ones first, lie at such rows."""
+    """Envelope of a surface whose points, far ones first, lie at such rows."""
     return np.minimum.accumulate(rows[::-1], axis=0)[::-1]
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from synth.arrays import Floats, Singles
 from synth.bed.relief.packing import Footprint, Grain, cut_maps, window_of
-from synth.bed.view.chain import crossings
+from synth.bed.view.chain import crossings, surface_envelope
 from synth.bed.view.frame import ObliqueFrame
 
 _FAR = np.float32(1e6)  # row of a point that is not there
@@ -126,7 +126,7 @@ def _sides(
     rows[:count][absent] = _FAR
     rows[count:][absent[::-1]] = -_FAR
     envelope = np.empty_like(rows)
-    envelope[:count] = np.minimum.accumulate(rows[count - 1 :: -1], axis=0)[::-1]
+    envelope[:count] = surface_envelope(rows[:count])
     envelope[count:] = np.maximum.accumulate(rows[count:], axis=0)
     return _Sides(rows, envelope, height, np.asarray(inside.any(axis=0)))
 

@@ -39,11 +39,10 @@ def make_dented(half_axes_m: Floats, options: DentedOptions, rng: np.random.Gene
         spread=_SPREAD,
         rng=rng,
     )
-    count = int(rng.integers(options.dents[0], options.dents[1] + 1))
     surface = draw_dents(
-        core, count=count, depth=options.depth, width_deg=options.width_deg, rng=rng
+        core, dents=options.dents, depth=options.depth, width_deg=options.width_deg, rng=rng
     )
-    knobs = {"softness": softness, "dents": float(count)}
+    knobs = {"softness": softness, "dents": float(len(surface.depths))}
     return Made(fitted(surface, half_axes_m), knobs, smooth=True, has_edges=False)
 
 

@@ -35,12 +35,13 @@ class Dented:
 def draw_dents(
     surface: StarSurface,
     *,
-    count: int,
+    dents: tuple[int, int],
     depth: tuple[float, float],
     width_deg: tuple[float, float],
     rng: np.random.Generator,
 ) -> Dented:
-    """Surface with so many dents, narrow ones shallower in proportion to their width."""
+    """Surface with dents, narrow ones shallower in proportion to their width."""
+    count = int(rng.integers(dents[0], dents[1] + 1))
     middles = rng.standard_normal((count, 3))
     widths = rng.uniform(*width_deg, size=count)
     return Dented(
@@ -69,8 +70,11 @@ def with_dents(
     """Surface with the dents that the options ask for, and their knobs; neither where none."""
     if not options.dents[1]:
         return surface, {}
-    count = int(rng.integers(options.dents[0], options.dents[1] + 1))
     dented = draw_dents(
-        surface, count=count, depth=options.dent_depth, width_deg=options.dent_width_deg, rng=rng
+        surface,
+        dents=options.dents,
+        depth=options.dent_depth,
+        width_deg=options.dent_width_deg,
+        rng=rng,
     )
-    return dented, {"dents": float(count)}
+    return dented, {"dents": float(len(dented.depths))}

@@ -10,6 +10,7 @@ import numpy as np
 from synth.arrays import Floats
 from synth.geometry.caliper import caliper_axes
 from synth.geometry.min_volume_box import smallest_box
+from synth.geometry.vectors import perpendicular
 from synth.rocks.sphere import unit_sphere
 from synth.rocks.star.surface import StarSurface
 
@@ -83,9 +84,7 @@ class _Search:
 
 def _round(middles: Floats, reach: float) -> Floats:
     """Directions (k, patch, 3) on a square grid round unit vectors (k, 3)."""
-    first = np.cross(middles, np.eye(3)[np.argmin(np.abs(middles), axis=1)])
-    first /= np.linalg.norm(first, axis=1, keepdims=True)
-    second = np.cross(middles, first)
+    first, second = perpendicular(middles)
     one, two = (part.reshape(1, -1, 1) for part in np.meshgrid(reach * _GRID, reach * _GRID))
     tried = middles[:, None] + one * first[:, None] + two * second[:, None]
     return np.asarray(tried / np.linalg.norm(tried, axis=2, keepdims=True))

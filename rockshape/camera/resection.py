@@ -14,12 +14,11 @@ from scipy.spatial.transform import Rotation
 
 from rockshape.camera.camera import Camera
 from rockshape.camera.direct_linear import direct_linear
+from rockshape.camera.posed_projection import MAX_LOG_FOCAL, derivatives, posed, projected
 from rockshape.numerics.robust_scale import median_scale
 
 SAMPLE = 2000  # pixels used: enough for 1e-2 px, and quick
 MIN_PIXELS = 12  # pixels below which seven unknowns are not worth solving for
-MAX_LOG_FOCAL = 20.0  # of a focal length in px
-MIN_DEPTH_M = 1e-6  # at which points behind a camera are taken to be seen
 DRAWS = 30  # starts of few pixels each, one of them surely without an outlier
 DRAWN = 16  # pixels of a start
 CONCENTRATIONS = 3
@@ -27,6 +26,7 @@ REFINED = 3  # starts: of a scene that is nearly flat one alone can lead astray
 CUT = 6.0  # robust standard deviations of the misses, beyond which a pixel's point is an outlier
 FINE_PX = 1e-3  # and less than which no miss is one: rounding
 ROUNDS = 10
+MAX_EVALUATIONS = 50  # of a least-squares fit; one that leads to a camera takes fewer
 MOST_OUTLIERS = 0.3  # of the pixels; a grid with more is not one camera's
 SEED = 20020309  # draws are fixed: equal points give equal cameras
 
@@ -123,7 +123,7 @@ def _refined(
         if (sound == before).all():
             break
         parameters = _least_squares(parameters, pixels[sound], points[sound])
-    seen = abs(parameters[6]) < MAX_LOG_FOCAL and (_pose(parameters, points[sound])[:, 2] > 0).all()
+    seen = abs(parameters[6]) < MAX_LOG_FOCAL and (posed(parameters, points[sound])[:, 2] > 0).all()
     return parameters if seen and sound.mean() >= 1 - MOST_OUTLIERS else None
 
 
@@ -131,24 +131,22 @@ def _least_squares(
     start: NDArray[np.float64], pixels: NDArray[np.float64], points: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     def residuals(parameters: NDArray[np.float64]) -> NDArray[np.float64]:
-        return np.asarray((_seen(parameters, points) - pixels).ravel())
+        return np.asarray((projected(parameters, points) - pixels).ravel())
 
-    return np.asarray(least_squares(residuals, start, method="lm", x_scale="jac").x)
+    def jacobian(parameters: NDArray[np.float64]) -> NDArray[np.float64]:
+        return derivatives(parameters, points).reshape(-1, len(parameters))
 
-
-def _seen(parameters: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Pixel coordinates (n, 2) of points (n, 3), from the principal point."""
-    camera_points = _pose(parameters, points)
-    depth = np.maximum(camera_points[:, 2], MIN_DEPTH_M)
-    focal = np.exp(np.clip(parameters[6], -MAX_LOG_FOCAL, MAX_LOG_FOCAL))
-    return np.asarray(focal * camera_points[:, :2] / depth[:, None])
+    found = least_squares(
+        residuals, start, jacobian, method="lm", x_scale="jac", max_nfev=MAX_EVALUATIONS
+    )
+    return np.asarray(found.x)
 
 
 def _misses(
     parameters: NDArray[np.float64], pixels: NDArray[np.float64], points: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Distances (n,), px, of pixels from where their points are seen."""
-    return np.asarray(np.linalg.norm(_seen(parameters, points) - pixels, axis=1))
+    return np.asarray(np.linalg.norm(projected(parameters, points) - pixels, axis=1))
 
 
 def sampled(
@@ -159,8 +157,3 @@ def sampled(
     every = max(1, len(row) // SAMPLE)
     row, col = row[::every], col[::every]
     return row, col, points_m[row, col]
-
-
-def _pose(parameters: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:
-    moved: NDArray[np.float64] = Rotation.from_rotvec(parameters[:3]).apply(points)
-    return moved + parameters[3:6]

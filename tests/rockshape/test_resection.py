@@ -4,6 +4,7 @@ from scipy.spatial.transform import Rotation
 
 from rockshape.camera.calibration import calibrate
 from rockshape.camera.camera import Camera
+from rockshape.camera.posed_projection import derivatives
 from rockshape.camera.resection import resect
 from rockshape.errors import InputError
 from rockshape.io import read_image, read_range
@@ -101,6 +102,21 @@ def test_points_that_no_camera_sees_are_left_as_they_are(rng: np.random.Generato
     assert observation is given
     assert observation.resection is None
     assert np.array_equal(observation.points_m, points)
+
+
+def test_a_search_that_finds_no_camera_ends_soon(
+    monkeypatch: pytest.MonkeyPatch, rng: np.random.Generator
+) -> None:
+    """Of points of no camera's, where a fit that is not held ends after hundreds of steps."""
+    steps = []
+
+    def counted(*args: np.ndarray) -> np.ndarray:
+        steps.append(args)
+        return derivatives(*args)
+
+    monkeypatch.setattr("rockshape.camera.resection.derivatives", counted)
+    resect(rng.normal(size=(20, 30, 3)))
+    assert len(steps) < 500
 
 
 @pytest.mark.parametrize(

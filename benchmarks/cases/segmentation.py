@@ -12,7 +12,8 @@ import validation
 from rockshape.observation import Observation
 from rockshape.segmentation import FINDERS
 from synth.spec import convert_spec
-from validation.kinds.segmentation.judge import DEPTHS_M, SIZES_PX, f1
+from validation.kinds.segmentation.judge.definitions import DEPTHS_M, SIZES_PX
+from validation.kinds.segmentation.judge.statistics import f1_of
 
 FIELDS = {
     "sparse": {"k": 0.06},
@@ -97,13 +98,13 @@ def accuracy(*, only: tuple[str, ...] = (), preset: str = "", jobs: int = 2) -> 
             if rows.empty:
                 continue
             head = (source, family.replace("_", " "), _counted(parts[1]))
-            f1s.append((*head, *(f1(part["status"].to_numpy()) for part in parts)))
+            f1s.append((*head, *(f1_of(part["status"].to_numpy()) for part in parts)))
             ious.append((*head, *(part["iou"].mean() for part in parts)))
         six = own[own["family"].isin(FAMILIES)]
         robust = six[six["series"] == f"robust-{source}"]
         bins = [("width_px", *ends) for ends in SIZES_PX] + [("depth_m", *b) for b in DEPTHS_M]
         parts = [robust[(robust[c] >= low) & (robust[c] < high)] for c, low, high in bins]
-        widths.append((source, *(f1(p["status"].to_numpy()) for p in parts)))
+        widths.append((source, *(f1_of(p["status"].to_numpy()) for p in parts)))
         for series, rows in six.groupby("series"):
             true = rows[rows["status"].isin(["matched", "missed"])]
             ground = rows.drop_duplicates(["experiment", "scene", "view"])["ground_sigmas"]

@@ -21,7 +21,7 @@ from rockshape.segmentation import FINDERS, Segmentation
 from rockshape.segmentation.by_image.ground_appearance import read_lightness
 from rockshape.segmentation.by_range.height_signal import standing
 from rockshape.segmentation.robust import find_by_range, ground_among_rocks, heights_over
-from validation.kinds.segmentation.judge import f1
+from validation.kinds.segmentation.judge.statistics import f1_of
 from validation.kinds.segmentation.work import draw as draw_both
 
 mpl.use("Agg")
@@ -117,7 +117,7 @@ def _cases() -> list[Panel]:
     for series in SERIES:
         own = records[(records["series"] == series) & (records["experiment"] != "imp")]
         scores = {
-            place: f1(rows["status"].to_numpy())
+            place: f1_of(rows["status"].to_numpy())
             for place, rows in own.groupby(["experiment", "scene", "view"])
             if _enough(rows)
         }

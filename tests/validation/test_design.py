@@ -150,22 +150,22 @@ def test_the_true_outline_explains_what_it_makes_and_no_more() -> None:
         other = np.broadcast_to(rng.uniform(1, 2, size=(V, 1, 1)), (V, D, R))
         lit = np.broadcast_to(other[:, :, None, :], (V, D, L, R))
         noise += moments_of(other, lit, lit, outlines)
-    assert explained_share(moments) > 0.995  # the rocks' own means differ a little
-    assert explained_share(noise) < 0.02  # two lines through 1200 points of chance: 2/1200
+    assert explained_share(moments[None])[0] > 0.995  # the rocks' own means differ a little
+    assert explained_share(noise[None])[0] < 0.02  # two lines through 1200 points of chance: 2/1200
 
 
 def test_a_factor_common_to_a_frame_is_shared_and_movement_by_itself_is_not() -> None:
     rng = np.random.default_rng(10)
     rocks = rng.uniform(1, 5, size=(60, 1))
     factors = np.repeat(rng.uniform(0.5, 1.5, size=(10, 40)), 6, axis=0)  # ten scenes of six
-    ones = np.ones(60)
+    ones = np.ones((1, 60))
     together = movements(rocks * factors, rocks_a_scene=6)
     assert len(together.first) == 10 * 15
-    assert together.shared(ones) == pytest.approx(1.0, abs=1e-12)
+    assert together.shared(ones)[0] == pytest.approx(1.0, abs=1e-12)
     apart = rocks * (1 + 0.2 * rng.standard_normal((60, 40)))
     # 150 pairs of 40 cells: correlations of 0 ± 1/√40 each
-    assert abs(movements(apart, rocks_a_scene=6).shared(ones)) < 3 / np.sqrt(40 * 150)
-    assert np.isnan(together.shared(0 * ones))
+    assert abs(movements(apart, rocks_a_scene=6).shared(ones)[0]) < 3 / np.sqrt(40 * 150)
+    assert np.isnan(together.shared(0 * ones)).all()
     holes = rocks * factors
     holes[0, 2:] = np.nan
     assert len(movements(holes, rocks_a_scene=6).first) == 10 * 15 - 5

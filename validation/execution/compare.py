@@ -10,9 +10,9 @@ import pandas as pd
 from scipy import stats
 
 from validation.execution.recorded import Recorded
-from validation.scores.score import Better, Definition, Weighted, score_rng
+from validation.scores.score import Better, Definition, score_rng
 from validation.scores.scoring import definitions
-from validation.statistics.interval import LEVEL, REPLICATES
+from validation.statistics.interval import LEVEL, REPLICATES, Weighted, draws_of, in_draws
 
 MARGIN = 0.002  # the difference that another renderer makes
 MAX_GROUPS = 20
@@ -121,8 +121,8 @@ def _verdict(
 
 def _bootstrap(before: Weighted, after: Weighted, rocks: int, name: str) -> float:
     """Standard error of after − before by a bootstrap over rocks, the same draws for both."""
-    draws = score_rng(name).multinomial(rocks, np.full(rocks, 1.0 / rocks), size=REPLICATES)
-    found = np.array([after(w) - before(w) for w in draws.astype(np.float64)])
+    draws = draws_of(rocks, rng=score_rng(name), replicates=REPLICATES)
+    found = in_draws(after, draws) - in_draws(before, draws)
     found = found[np.isfinite(found)]
     return float(found.std(ddof=1)) if found.size >= REPLICATES / 2 else math.nan
 

@@ -2,10 +2,11 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from validation.arrays import Floats
 from validation.scores.score import Better, Estimate
 from validation.statistics import (
     Block,
@@ -19,8 +20,11 @@ from validation.statistics import (
     rank_moves,
     share_in_order,
     tau_b,
+    weighted_share_in_order,
+    weighted_tau_b,
     within_views,
 )
+from validation.statistics.weighted import mean
 
 
 @dataclass(frozen=True)
@@ -37,25 +41,21 @@ class Statistic:
 
 def tau(pairs: Pairs) -> Estimate:
     """Kendall's τ_b of pooled pairs, ready to be weighted by rock."""
-    return Estimate(tau_b(pairs), pairs.decided, pairs.rocks, lambda w: tau_b(pairs, w))
+    return Estimate(tau_b(pairs), pairs.decided, pairs.rocks, partial(weighted_tau_b, pairs))
 
 
 def _share(pairs: Pairs) -> Estimate:
-    return Estimate(
-        share_in_order(pairs), pairs.decided, pairs.rocks, lambda w: share_in_order(pairs, w)
-    )
+    weighted = partial(weighted_share_in_order, pairs)
+    return Estimate(share_in_order(pairs), pairs.decided, pairs.rocks, weighted)
 
 
-def weighted_mean(values: NDArray[np.float64]) -> Estimate:
+def weighted_mean(values: Floats) -> Estimate:
     """Mean of the finite values, one value a rock."""
     values = values[np.isfinite(values)]
     if values.size == 0:
         return Estimate(float("nan"), 0)
 
-    def mean(weights: NDArray[np.float64]) -> float:
-        return float(weights @ values / weights.sum())
-
-    return Estimate(float(values.mean()), int(values.size), int(values.size), mean)
+    return Estimate(float(values.mean()), int(values.size), int(values.size), partial(mean, values))
 
 
 def _concordance(blocks: Sequence[Block]) -> Estimate:

@@ -8,16 +8,14 @@ from typing import Literal
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from validation.scores.titles import REFERENCE
-from validation.statistics.interval import bootstrap_interval
+from validation.statistics.interval import Weighted, bootstrap_interval
 
 BOOTSTRAP_SEED = 20020309
 VIEW_PREFIX = "view_"  # of statistics against what a view truly shows
 
 Better = Literal["higher", "lower", "neither"]
-Weighted = Callable[[NDArray[np.float64]], float]  # the value of weighted rocks
 
 
 @dataclass(frozen=True)

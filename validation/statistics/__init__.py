@@ -13,6 +13,8 @@ from validation.statistics.pairs import (
     between_views,
     share_in_order,
     tau_b,
+    weighted_share_in_order,
+    weighted_tau_b,
     within_views,
 )
 from validation.statistics.variation import (
@@ -35,5 +37,7 @@ __all__ = [
     "rank_moves",
     "share_in_order",
     "tau_b",
+    "weighted_share_in_order",
+    "weighted_tau_b",
     "within_views",
 ]

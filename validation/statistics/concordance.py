@@ -11,6 +11,8 @@ from scipy import stats
 
 from validation.arrays import Floats
 from validation.statistics.block import Block
+from validation.statistics.interval import of_sample
+from validation.statistics.weighted import ratio
 
 MAX_ARRANGEMENTS = 100_000
 PERMUTATIONS = 1999
@@ -60,20 +62,20 @@ class Concordance:
     @property
     def w(self) -> float:
         """W; NaN where no block has two views and two complete rocks, or every view ties all."""
-        return self.weighted(np.ones(self.rocks))
+        return of_sample(self.weighted, self.rocks)
 
-    def weighted(self, weights: Floats) -> float:
-        """W with one weight a rock: how often a draw with replacement took it.
+    def weighted(self, weights: Floats) -> Floats:
+        """W in each draw, (draws,), of one weight a rock, (draws, rocks): how often it was taken.
 
         A copy of a rock ties with it in every view, which the correction for ties takes out.
         """
-        shared = total = 0.0
+        shared, total = np.zeros(len(weights)), np.zeros(len(weights))
         for scenes in self.stacks:
-            own = weights[scenes.rock]
-            ranks = 0.5 * (scenes.signs @ own[:, None, :, None])[..., 0]  # of the weighted rocks
-            shared += float((own * ranks.sum(axis=1) ** 2).sum())
-            total += ranks.shape[1] * float((own[:, None] * ranks**2).sum())
-        return shared / total if total > 0 else math.nan
+            own = np.moveaxis(weights[:, scenes.rock], 0, -1)[:, None]  # (blocks, 1, rocks, draws)
+            ranks = 0.5 * (scenes.signs @ own)  # (blocks, views, rocks, draws)
+            shared += (own[:, 0] * ranks.sum(axis=1) ** 2).sum(axis=(0, 1))
+            total += ranks.shape[1] * (own * ranks**2).sum(axis=(0, 1, 2))
+        return ratio(shared, total)
 
     def p_value(self) -> float:
         """Chance of such a W or a greater one if every view ranked at random.

@@ -12,7 +12,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from validation.arrays import Floats
 from validation.statistics.block import Block
+from validation.statistics.interval import of_sample
+from validation.statistics.weighted import ratio
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,16 +66,14 @@ class Tallies:
     found: NDArray[np.float64]  # (couples,) number of pairs with a measured order
     agreed: NDArray[np.float64]  # (couples,) concordant less discordant pairs
 
-    def sums(self, rock_weights: NDArray[np.float64] | None) -> tuple[float, float, float]:
-        """Sums of expected, found and agreed, a pair weighing its rocks' product."""
-        if rock_weights is None:
-            return float(self.expected.sum()), float(self.found.sum()), float(self.agreed.sum())
-        weights = rock_weights[self.first] * rock_weights[self.second]
-        return (
-            float(weights @ self.expected),
-            float(weights @ self.found),
-            float(weights @ self.agreed),
-        )
+    def sums(self, weights: Floats) -> tuple[Floats, Floats, Floats]:
+        """Sums of expected, found and agreed, a pair weighing its rocks' product.
+
+        `weights` is (draws, rocks), each sum (draws,).
+        """
+        both = weights[:, self.first] * weights[:, self.second]
+        expected, found, agreed = (both @ np.stack([self.expected, self.found, self.agreed]).T).T
+        return expected, found, agreed
 
 
 def _signs(differences: NDArray[np.float64], margin: float) -> NDArray[np.int8]:
@@ -155,7 +156,19 @@ def between_views(blocks: Sequence[Block]) -> Pairs:
     return _pool(blocks, differences, truth_margin=0.0, value_margin=0.0)
 
 
-def tau_b(pairs: Pairs, rock_weights: NDArray[np.float64] | None = None) -> float:
+def weighted_tau_b(pairs: Pairs, weights: Floats) -> Floats:
+    """Kendall's τ_b of pooled pairs in each draw, (draws,), of weights (draws, rocks)."""
+    expected, found, agreed = pairs.tallies.sums(weights)
+    return ratio(agreed, np.sqrt(expected * found))
+
+
+def weighted_share_in_order(pairs: Pairs, weights: Floats) -> Floats:
+    """Share of pairs in the right order in each draw, (draws,), of weights (draws, rocks)."""
+    expected, _, agreed = pairs.tallies.sums(weights)
+    return 0.5 * (1.0 + ratio(agreed, expected))
+
+
+def tau_b(pairs: Pairs) -> float:
     """Kendall's τ_b of pooled pairs.
 
     τ_b = Σ w e f / √(Σ w e² · Σ w f²) with e and f the expected and the found sign (Kendall 1945,
@@ -163,15 +176,12 @@ def tau_b(pairs: Pairs, rock_weights: NDArray[np.float64] | None = None) -> floa
     for several, concordant and discordant pairs are pooled, never the coefficients averaged.
     NaN when either side has no order at all.
     """
-    expected, found, agreed = pairs.tallies.sums(rock_weights)
-    scale = np.sqrt(expected * found)
-    return agreed / float(scale) if scale > 0 else float("nan")
+    return of_sample(lambda weights: weighted_tau_b(pairs, weights), pairs.rocks)
 
 
-def share_in_order(pairs: Pairs, rock_weights: NDArray[np.float64] | None = None) -> float:
+def share_in_order(pairs: Pairs) -> float:
     """Share of pairs in the right order; a measured tie counts one half.
 
     Pairs without an expected order are left out; NaN when none is left.
     """
-    expected, _, agreed = pairs.tallies.sums(rock_weights)
-    return 0.5 * (1.0 + agreed / expected) if expected > 0 else float("nan")
+    return of_sample(lambda weights: weighted_share_in_order(pairs, weights), pairs.rocks)

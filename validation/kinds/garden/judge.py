@@ -8,6 +8,7 @@ import pandas as pd
 from scipy import stats
 
 from rockshape.method import find_method
+from validation.arrays import Floats
 from validation.kinds.garden.spec import GardenExperiment
 from validation.kinds.multiview import judge as multiview
 from validation.kinds.multiview.judge import FEEDS, claims, ranked_claims, view_claims
@@ -15,6 +16,8 @@ from validation.kinds.multiview.judge.detection import rock_numbers
 from validation.peers import MeasureSpec
 from validation.scores.score import Definition, Estimate, Key
 from validation.scores.titles import REFERENCE
+from validation.statistics.interval import of_sample
+from validation.statistics.weighted import ratio
 
 __all__ = ["FEEDS", "claims", "definitions", "ranked_claims", "view_claims"]
 
@@ -58,14 +61,15 @@ def _rho(key: Key) -> Callable[[pd.DataFrame], Estimate]:
         one, other = (stats.rankdata(shown[column].to_numpy()) for column in (first, second))
         rock, rocks = rock_numbers(shown, own)
 
-        def rho(weights: np.typing.NDArray[np.float64]) -> float:
-            weight = weights[rock]
-            if np.count_nonzero(weight) < 3:
-                return float("nan")
-            table = np.cov(one, other, aweights=weight, bias=True)
-            return float(table[0, 1] / np.sqrt(table[0, 0] * table[1, 1]))
+        def rho(weights: Floats) -> Floats:
+            own = weights[:, rock]
+            own = np.where(np.count_nonzero(own, axis=1, keepdims=True) < 3, 0.0, own)
+            total = own.sum(axis=1)
+            x, y = (ranks - ratio(own @ ranks, total)[:, None] for ranks in (one, other))
+            between, of_x, of_y = ((own * each).sum(axis=1) for each in (x * y, x * x, y * y))
+            return ratio(between, np.sqrt(of_x * of_y))
 
-        return Estimate(rho(np.ones(rocks)), len(shown), rocks, rho)
+        return Estimate(of_sample(rho, rocks), len(shown), rocks, rho)
 
     return compute
 

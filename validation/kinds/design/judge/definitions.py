@@ -1,6 +1,7 @@
 """Scores of a designed experiment: how far a rock's value moves, and what moves it."""
 
 from collections.abc import Callable, Sequence
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -21,10 +22,12 @@ from validation.statistics import (
     Pairs,
     across_views,
     between_views,
-    share_in_order,
-    tau_b,
+    weighted_share_in_order,
+    weighted_tau_b,
     within_views,
 )
+from validation.statistics.interval import Weighted, of_sample
+from validation.statistics.weighted import ratio
 
 Compute = Callable[[Cubes], Estimate]
 
@@ -48,32 +51,37 @@ def parts_of(cubes: Cubes) -> Floats:
     return table
 
 
-def _pooled(table: Floats, value: Callable[[Floats], float]) -> Estimate:
-    """Statistic of the rocks' mean row, (rocks, …); rocks that are NaN count for none."""
+def _pooled(table: Floats, value: Weighted) -> Estimate:
+    """Statistic of the mean row of (rocks, …), which NaN rocks do not enter.
+
+    `value` takes the mean rows of draws, (draws, …).
+    """
     flat = table.reshape(len(table), -1)
     known = np.asarray(np.isfinite(flat).all(axis=1))
     if not known.any():
         return Estimate(float("nan"), 0)
     rows = np.where(known[:, None], flat, 0.0)
 
-    def weighted(weights: Floats) -> float:
-        total = float(weights[known].sum())
-        return value((weights @ rows).reshape(table.shape[1:]) / total) if total else float("nan")
+    def weighted(weights: Floats) -> Floats:
+        drawn = weights[:, known].sum(axis=1)
+        found = np.full(len(weights), np.nan)
+        means = (weights[drawn > 0] @ rows) / drawn[drawn > 0, None]
+        found[drawn > 0] = value(means.reshape(-1, *table.shape[1:]))
+        return found
 
-    return Estimate(weighted(np.ones(len(table))), int(known.sum()), len(table), weighted)
+    return Estimate(of_sample(weighted, len(table)), int(known.sum()), len(table), weighted)
 
 
 def _share(cause: str) -> Compute:
     index = CAUSES.index(cause)
 
-    def share(mean: Floats) -> float:
-        return float(mean[index] / mean[-1]) if mean[-1] > 0 else float("nan")
-
-    return lambda cubes: _pooled(parts_of(cubes), share)
+    return lambda cubes: _pooled(
+        parts_of(cubes), lambda means: ratio(means[:, index], means[:, -1])
+    )
 
 
 def _cv(cubes: Cubes) -> Estimate:
-    return _pooled(parts_of(cubes), lambda mean: float(np.sqrt(mean[-1])))
+    return _pooled(parts_of(cubes), lambda means: np.sqrt(means[:, -1]))
 
 
 def _cv_clean(cubes: Cubes) -> Estimate:
@@ -83,7 +91,7 @@ def _cv_clean(cubes: Cubes) -> Estimate:
         whole = np.isfinite(clean).all(axis=(1, 2))
         if whole.sum() >= MIN_VIEWS and clean[whole].mean() != 0.0:
             table[rock] = clean[whole].var() / clean[whole].mean() ** 2
-    return _pooled(table, lambda mean: float(np.sqrt(mean)))
+    return _pooled(table, np.sqrt)
 
 
 def _true_share(cubes: Cubes) -> Estimate:
@@ -96,7 +104,7 @@ def _shared(state: str) -> Compute:
         values = cubes.clean if state == CLEAN else cubes.noisy
         flat = values.reshape(len(values), -1)
         found = movements(flat, rocks_a_scene=cubes.rocks_a_scene)
-        value = found.shared(np.ones(len(flat)))
+        value = of_sample(found.shared, len(flat))
         return Estimate(value, len(found.first), len(flat), found.shared)
 
     return compute
@@ -111,7 +119,7 @@ def _measured(state: str) -> Compute:
         seen = np.broadcast_to(seen, values.shape).reshape(len(values), -1)
         good = np.isfinite(values).reshape(len(values), -1) & seen
         counts = np.column_stack([good.sum(axis=1), seen.sum(axis=1)]).astype(np.float64)
-        found = _pooled(counts, lambda m: float(m[0] / m[1]) if m[1] > 0 else float("nan"))
+        found = _pooled(counts, lambda means: ratio(means[:, 0], means[:, 1]))
         return Estimate(found.value, int(seen.sum()), found.rocks, found.weighted)
 
     return compute
@@ -136,13 +144,12 @@ def _blocks(cubes: Cubes, state: str) -> tuple[Block, ...]:
 def _order(
     state: str,
     pairs_of: Callable[[Sequence[Block]], Pairs],
-    value: Callable[[Pairs, Floats | None], float],
+    value: Callable[[Pairs, Floats], Floats],
 ) -> Compute:
     def compute(cubes: Cubes) -> Estimate:
         pairs = pairs_of(_blocks(cubes, state))
-        return Estimate(
-            value(pairs, None), pairs.decided, pairs.rocks, lambda weights: value(pairs, weights)
-        )
+        weighted = partial(value, pairs)
+        return Estimate(of_sample(weighted, pairs.rocks), pairs.decided, pairs.rocks, weighted)
 
     return compute
 
@@ -166,13 +173,13 @@ _STATISTICS: tuple[tuple[str, str, str, str, Better, Compute], ...] = (
     ("shared_clean", "the same with true masks and exact range", "share", "pairs of rocks",
      "neither", _shared(CLEAN)),
     ("tau_frames", "agreement of two frames' rankings (mean pairwise τ_b)", "1", "pairs",
-     "higher", _order(NOISY, between_views, tau_b)),
+     "higher", _order(NOISY, between_views, weighted_tau_b)),
     ("tau_frames_clean", "the same with true masks and exact range", "1", "pairs", "higher",
-     _order(CLEAN, between_views, tau_b)),
+     _order(CLEAN, between_views, weighted_tau_b)),
     ("order_within", "pairs of one frame in the order of the rocks' means", "share", "pairs",
-     "higher", _order(NOISY, within_views, share_in_order)),
+     "higher", _order(NOISY, within_views, weighted_share_in_order)),
     ("order_across", "pairs of any two frames in the order of the rocks' means", "share", "pairs",
-     "higher", _order(NOISY, across_views, share_in_order)),
+     "higher", _order(NOISY, across_views, weighted_share_in_order)),
 )  # fmt: skip
 _TRUE: tuple[str, str, str, str, Better, Compute] = (
     "true_share", "share of the variance between views that the true outline explains (R²)",

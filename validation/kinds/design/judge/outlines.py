@@ -5,6 +5,7 @@ from numpy.typing import NDArray
 
 from validation.arrays import Floats
 from validation.kinds.design.judge.variance_components import MIN_VIEWS, whole_views
+from validation.statistics.weighted import ratio
 
 
 def _deviations(clean: Floats, outlines: Floats, whole: NDArray[np.bool_]) -> Floats | None:
@@ -19,16 +20,15 @@ def _deviations(clean: Floats, outlines: Floats, whole: NDArray[np.bool_]) -> Fl
     return np.column_stack([values / values.mean() - 1.0, truths - truths.mean(axis=0)])
 
 
-def explained_share(moments: Floats) -> float:
+def explained_share(moments: Floats) -> Floats:
     """Share R² of the values' variance that a line in the outlines' truths explains.
 
-    moments (1 + truths, 1 + truths) are summed products of deviations, y first:
-    R² = s_yx S_xx⁺ s_xy/s_yy, with one line for all rocks.
+    moments (draws, 1 + truths, 1 + truths) are summed products of deviations, y first:
+    R² = s_yx S_xx⁺ s_xy/s_yy, with one line for all rocks; (draws,).
     """
-    across = moments[0, 1:]
-    if not moments[0, 0] > 0:
-        return float("nan")
-    return float(across @ np.linalg.pinv(moments[1:, 1:]) @ across / moments[0, 0])
+    across = moments[:, 0, 1:, None]
+    slopes = np.linalg.pinv(moments[:, 1:, 1:]) @ across
+    return ratio((across * slopes).sum(axis=(1, 2)), moments[:, 0, 0])
 
 
 def moments_of(clean: Floats, found: Floats, noisy: Floats, outlines: Floats) -> Floats:

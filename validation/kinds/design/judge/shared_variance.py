@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.arrays import Floats
+from validation.statistics.weighted import ratio
 
 MIN_CELLS = 3
 
@@ -19,15 +20,16 @@ class Movements:
     together: Floats  # (pairs,), covariance over the cells of value/mean
     alone: Floats  # (pairs,), mean of the two variances
 
-    def shared(self, weights: Floats) -> float:
+    def shared(self, weights: Floats) -> Floats:
         """Σ w_i w_j cov_ij / Σ w_i w_j (var_i + var_j)/2 over pairs; NaN without movement.
+
+        `weights` is (draws, rocks), the result (draws,).
 
         It is 1 where every frame multiplies all its rocks by one factor, which leaves each frame's
         order as it is, and 0 where each rock moves by itself.
         """
-        own = weights[self.first] * weights[self.second]
-        whole = float(own @ self.alone)
-        return float(own @ self.together) / whole if whole > 0 else float("nan")
+        own = weights[:, self.first] * weights[:, self.second]
+        return ratio(own @ self.together, own @ self.alone)
 
 
 def movements(values: Floats, *, rocks_a_scene: int) -> Movements:

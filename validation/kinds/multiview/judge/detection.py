@@ -4,7 +4,9 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from validation.arrays import Floats
 from validation.scores.score import Estimate
+from validation.statistics.weighted import mean
 
 _ROCK = ["scene", "instance"]
 
@@ -20,14 +22,12 @@ def rock_numbers(shown: pd.DataFrame, records: pd.DataFrame) -> tuple[NDArray[np
     return number.astype(np.intp), len(every)
 
 
-def _share(good: NDArray[np.float64], rock: NDArray[np.intp], rocks: int) -> Estimate:
+def _share(good: Floats, rock: NDArray[np.intp], rocks: int) -> Estimate:
     if good.size == 0:
         return Estimate(float("nan"), 0)
 
-    def share(weights: NDArray[np.float64]) -> float:
-        row_weights = weights[rock]
-        total = row_weights.sum()
-        return float(row_weights @ good / total) if total > 0 else float("nan")
+    def share(weights: Floats) -> Floats:
+        return mean(good, weights[:, rock])
 
     return Estimate(float(good.mean()), int(good.size), rocks, share)
 

@@ -10,43 +10,33 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from validation.arrays import Floats
 from validation.kinds.multiview.judge.detection import rock_numbers
 from validation.scores.agreement import Statistic
 from validation.scores.expectations import Claim
 from validation.scores.score import Estimate
 from validation.statistics import Block
-
-_Values = NDArray[np.float64]
+from validation.statistics.interval import of_sample
+from validation.statistics.weighted import lower_median, mean, ratio
 
 
 def _pooled(
-    values: _Values, rock: NDArray[np.intp], rocks: int, total: Callable[[_Values, _Values], float]
+    values: Floats, rock: NDArray[np.intp], rocks: int, total: Callable[[Floats, Floats], Floats]
 ) -> Estimate:
-    """Statistic `total(values, weights)` of pooled values with a weight for each rock."""
+    """Statistic `total(values, weights)` of pooled values, their weights (draws, values)."""
     keep = np.isfinite(values)
     values, rock = values[keep], rock[keep]
     if values.size == 0:
         return Estimate(float("nan"), 0)
 
-    def weighted(weights: _Values) -> float:
-        own = weights[rock]
-        return total(values, own) if own.sum() > 0 else float("nan")
+    def weighted(weights: Floats) -> Floats:
+        return total(values, weights[:, rock])
 
-    return Estimate(total(values, np.ones(values.size)), int(values.size), rocks, weighted)
-
-
-def _mean(values: _Values, weights: _Values) -> float:
-    return float(weights @ values / weights.sum())
+    return Estimate(of_sample(weighted, rocks), int(values.size), rocks, weighted)
 
 
-def _rms(values: _Values, weights: _Values) -> float:
-    return float(np.sqrt(weights @ values**2 / weights.sum()))
-
-
-def _median(values: _Values, weights: _Values) -> float:
-    order = np.argsort(values, kind="stable")
-    reached = np.cumsum(weights[order])
-    return float(values[order][np.searchsorted(reached, 0.5 * reached[-1])])
+def _rms(values: Floats, weights: Floats) -> Floats:
+    return np.sqrt(mean(values**2, weights))
 
 
 def _in_plain_view(records: pd.DataFrame) -> pd.DataFrame:
@@ -66,11 +56,11 @@ def centre_px(records: pd.DataFrame) -> Estimate:
 def axis_a(records: pd.DataFrame) -> Estimate:
     """Median ratio of the measured to the true longest half-axis."""
     shown = _in_plain_view(records)
-    ratio = shown["axis_a_m"].to_numpy(np.float64) / shown["truth_axis_a_m"].to_numpy(np.float64)
-    return _pooled(ratio, *rock_numbers(shown, records), _median)
+    relative = shown["axis_a_m"].to_numpy(np.float64) / shown["truth_axis_a_m"].to_numpy(np.float64)
+    return _pooled(relative, *rock_numbers(shown, records), lower_median)
 
 
-def _flat(blocks: Sequence[Block], *, less_truth: bool) -> tuple[_Values, NDArray[np.intp], int]:
+def _flat(blocks: Sequence[Block], *, less_truth: bool) -> tuple[Floats, NDArray[np.intp], int]:
     """All values of all blocks, or their differences from the truth, with their rocks."""
     values, rocks, count = [np.empty(0)], [np.empty(0, np.intp)], 0
     for block in blocks:
@@ -88,23 +78,20 @@ def _slope(blocks: Sequence[Block]) -> Estimate:
     keep = np.isfinite(values) & np.isfinite(truth)
     values, truth, rock = values[keep], truth[keep], rock[keep]
 
-    def slope(weights: _Values) -> float:
-        own = weights[rock]
-        if not own.sum() > 0:
-            return float("nan")
-        off = truth - np.average(truth, weights=own)
-        spread = float(own @ off**2)
-        return float(own @ (off * values)) / spread if spread > 0 else float("nan")
+    def slope(weights: Floats) -> Floats:
+        own = weights[:, rock]
+        off = truth - ratio((own * truth).sum(axis=1), own.sum(axis=1))[:, None]
+        return ratio(np.vecdot(own, off * values), np.vecdot(own, off**2))
 
-    return Estimate(slope(np.ones(rocks)), int(values.size), rocks, slope)
+    return Estimate(of_sample(slope, rocks), int(values.size), rocks, slope)
 
 
 def _level(blocks: Sequence[Block]) -> Estimate:
-    return _pooled(*_flat(blocks, less_truth=False), _mean)
+    return _pooled(*_flat(blocks, less_truth=False), mean)
 
 
 def _bias(blocks: Sequence[Block]) -> Estimate:
-    return _pooled(*_flat(blocks, less_truth=True), _mean)
+    return _pooled(*_flat(blocks, less_truth=True), mean)
 
 
 def _error(blocks: Sequence[Block]) -> Estimate:

@@ -1,19 +1,8 @@
-"""Measures from elsewhere: functions, commands and peer packages, run on the rocks of a view."""
+"""Measures from elsewhere: functions, commands and peer packages, run on the rocks of a view.
 
-from validation.peers.declare import expected_trait
-from validation.peers.run import run_measure, source_digest
-from validation.peers.spec import MeasureSpec, Name, Text, Trait, normalise_measures
-from validation.peers.view_input import Seen, outlines_px
+Names are imported when they are first asked for: the process of a function needs few of them.
+"""
 
-__all__ = [
-    "MeasureSpec",
-    "Name",
-    "Seen",
-    "Text",
-    "Trait",
-    "expected_trait",
-    "normalise_measures",
-    "outlines_px",
-    "run_measure",
-    "source_digest",
-]
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

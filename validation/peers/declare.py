@@ -1,10 +1,9 @@
 """Expected traits that a measure's function declares for its columns."""
 
 from collections.abc import Callable, Mapping
-from typing import ParamSpec, TypeVar
+from typing import Literal, ParamSpec, TypeVar
 
-from validation.peers.spec import Trait
-
+Trait = Literal["angularity", "roundness", "form"]
 _P = ParamSpec("_P")
 _T = TypeVar("_T")
 _ATTRIBUTE = "expected_trait"

@@ -11,9 +11,9 @@ import numpy as np
 from validation.errors import InputError
 from validation.peers.adapters import ADAPTERS
 from validation.peers.command import check_command
-from validation.peers.declare import VALUE
+from validation.peers.declare import VALUE, Trait
 from validation.peers.run import declared_by, run_measure
-from validation.peers.spec import MeasureSpec, Trait
+from validation.peers.spec import MeasureSpec
 from validation.peers.view_input import Seen
 
 _NAMED = re.compile(r"(?P<name>[a-z][a-z0-9_-]*)=(?P<rest>.+)", re.DOTALL)

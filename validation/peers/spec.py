@@ -1,15 +1,15 @@
 """Specification of a measure from elsewhere, as a suite has it."""
 
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from msgspec import Meta, Struct, field
 
 from rockshape.method import methods
+from validation.peers.declare import Trait
 
 Name = Annotated[str, Meta(pattern="^[a-z][a-z0-9_-]*$")]
 Text = Annotated[str, Meta(min_length=1)]
-Trait = Literal["angularity", "roundness", "form"]
 
 
 class MeasureSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):

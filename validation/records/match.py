@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
-from scipy.optimize import linear_sum_assignment
 
 from validation.errors import InputError
 
@@ -30,6 +29,9 @@ def match_labels(
     Raises:
         InputError: the shapes differ.
     """
+    # imported when first called: it takes half a second, and what only names records needs none
+    from scipy.optimize import linear_sum_assignment  # noqa: PLC0415
+
     if truth.shape != measured.shape:
         raise InputError(f"labels: expected {truth.shape} as the truth, found {measured.shape}")
     true_index, true_ids = pd.factorize(truth.ravel(), sort=True)

@@ -1,0 +1,10 @@
+from .declare import Trait as Trait
+from .declare import expected_trait as expected_trait
+from .run import run_measure as run_measure
+from .run import source_digest as source_digest
+from .spec import MeasureSpec as MeasureSpec
+from .spec import Name as Name
+from .spec import Text as Text
+from .spec import normalise_measures as normalise_measures
+from .view_input import Seen as Seen
+from .view_input import outlines_px as outlines_px

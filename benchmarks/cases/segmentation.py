@@ -13,7 +13,7 @@ from rockshape.observation import Observation
 from rockshape.segmentation import FINDERS
 from synth.spec import convert_spec
 from validation.kinds.segmentation.judge.definitions import DEPTHS_M, SIZES_PX
-from validation.kinds.segmentation.judge.statistics import f1_of
+from validation.scores.object_scores import f1_of
 
 FIELDS = {
     "sparse": {"k": 0.06},

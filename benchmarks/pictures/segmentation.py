@@ -21,8 +21,8 @@ from rockshape.segmentation import FINDERS, Segmentation
 from rockshape.segmentation.by_image.ground_appearance import read_lightness
 from rockshape.segmentation.by_range.height_signal import standing
 from rockshape.segmentation.robust import find_by_range, ground_among_rocks, heights_over
-from validation.kinds.segmentation.judge.statistics import f1_of
 from validation.kinds.segmentation.work import draw as draw_both
+from validation.scores.object_scores import f1_of
 
 mpl.use("Agg")
 from matplotlib import pyplot as plt

@@ -15,9 +15,10 @@ from validation.execution.run import assess
 from validation.execution.store import UnitStore, pack, unit_key
 from validation.execution.units import Unit, UnitResult
 from validation.execution.work import run_unit
-from validation.kinds.segmentation.baselines import fixed_height, otsu, plain_watershed
-from validation.kinds.segmentation.object_matching import Rule, judge
+from validation.kinds.segmentation.baselines import fixed_height, plain_watershed
 from validation.kinds.segmentation.spec import SegmentationExperiment
+from validation.peers.finders.otsu import otsu
+from validation.records.object_matching import Rule, judge
 from validation.report.page import page_html
 from validation.report.summary import summary_markdown
 from validation.scores.scoring import gate_scores, score_values

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from validation.kinds.segmentation.judge.statistics import f1, of_matched, share_of
+from validation.scores.object_scores import f1, of_matched, share_of
 from validation.scores.score import score_rng
 from validation.scores.scoring import definitions
 from validation.statistics import (
@@ -21,6 +21,7 @@ from validation.statistics.weighted import lower_median, mean, median
 
 ROUNDING = 1e-12  # relative: sums of at most a few hundred terms
 NONE = np.zeros(9)
+SCENE = ("scene",)
 
 
 @pytest.fixture
@@ -86,7 +87,10 @@ def test_objects_are_drawn_with_their_scenes(rng) -> None:
     records = pd.DataFrame(
         {"scene": rng.integers(0, 6, 200), "status": status, "boundary_px": rng.uniform(0, 3, 200)}
     )
-    objects, outlines = share_of(f1)(records), of_matched("boundary_px", median)(records)
+    objects, outlines = (
+        share_of(f1, SCENE)(records),
+        of_matched("boundary_px", median, SCENE)(records),
+    )
     draws = draws_of(6, rng=rng, replicates=60)
     found = [in_draws(each.weighted, draws) for each in (objects, outlines)]
     for draw, one_f1, one_median in zip(draws, *found, strict=True):

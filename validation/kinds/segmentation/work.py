@@ -17,11 +17,11 @@ from validation.arrays import Floats, Labels
 from validation.execution.units import Unit, UnitResult
 from validation.execution.views import dataset_views
 from validation.kinds.segmentation.baselines import BASELINES
-from validation.kinds.segmentation.object_matching import Rule, judge
 from validation.kinds.segmentation.sources import source_of, split_series
 from validation.kinds.segmentation.spec import SegmentationExperiment
 from validation.kinds.segmentation.truth import ViewTruth, range_counts, view_truth
 from validation.records.join import RecordKey
+from validation.records.object_matching import Rule, judge
 from validation.records.pictures import Picture, compress
 
 MAX_BASELINE_M = 0.424
@@ -129,6 +129,7 @@ def _rows(
     found_m = _depths_m(exact_m, made.labels)
     depth = [truth.depth_m[number] if number > 0 else found_m[-number] for number in rows["place"]]
     rows = rows.assign(depth_m=np.array(depth, dtype=np.float64)).drop(columns="place")
+    rows = rows.rename(columns={"found": "rock"})
     rows["eligible"] = rows["status"] != "extra"
     measured = np.isfinite(exact_m[..., 2])
     view = {

@@ -3,47 +3,54 @@
 from collections.abc import Sequence
 
 import numpy as np
+import pandas as pd
 
 from validation.kinds.segmentation.baselines import BASELINES
-from validation.kinds.segmentation.judge.statistics import (
-    Compute,
-    f1,
-    f1_between,
-    ground_error,
-    number_of,
-    of_matched,
-    precision,
-    recall,
-    share_of,
-)
 from validation.kinds.segmentation.sources import source_of, split_series
 from validation.kinds.segmentation.spec import SegmentationExperiment
 from validation.peers import MeasureSpec
-from validation.scores.score import Better, Definition, Key
+from validation.scores.object_scores import (
+    Compute,
+    between,
+    f1,
+    number_of,
+    of_matched,
+    precision,
+    range_name,
+    recall,
+    share_of,
+)
+from validation.scores.score import Better, Definition, Estimate, Key
 from validation.statistics.weighted import mean, median
 
 SIZES_PX = ((12, 24), (24, 48), (48, np.inf))
 DEPTHS_M = ((0, 4), (4, 6), (6, 8), (8, np.inf))
+_SCENE = ("scene",)  # what is drawn for intervals
+
+
+def ground_error(records: pd.DataFrame) -> Estimate:
+    """Median over views of the ground's RMS error in the range's noise."""
+    views = records.drop_duplicates(["scene", "view"])["ground_sigmas"].dropna()
+    value = float(views.median()) if len(views) else float("nan")
+    return Estimate(value, len(views))
+
 
 _WHOLE: tuple[tuple[str, str, str, str, Better, Compute], ...] = (
-    ("f1", "objects found (F1 at IoU > 0.5)", "1", "rocks in views", "higher", share_of(f1)),
+    ("f1", "objects found (F1 at IoU > 0.5)", "1", "rocks in views", "higher",
+     share_of(f1, _SCENE)),
     ("precision", "found objects that are rocks", "share", "rocks in views", "higher",
-     share_of(precision)),
-    ("recall", "rocks found", "share", "rocks in views", "higher", share_of(recall)),
+     share_of(precision, _SCENE)),
+    ("recall", "rocks found", "share", "rocks in views", "higher", share_of(recall, _SCENE)),
     ("mean_iou", "overlap of the found masks (mean IoU)", "1", "found rocks", "higher",
-     of_matched("iou", mean)),
+     of_matched("iou", mean, _SCENE)),
     ("boundary_px", "distance of the outlines, median", "px", "found rocks", "lower",
-     of_matched("boundary_px", median)),
+     of_matched("boundary_px", median, _SCENE)),
     ("splits", "rocks found in pieces", "rocks", "rocks in views", "lower", number_of("split")),
     ("merges", "rocks found as one with another", "rocks", "rocks in views", "lower",
      number_of("merged")),
     ("ground_error", "ground's RMS error over the range's noise, median", "σ", "views", "lower",
      ground_error),
 )  # fmt: skip
-
-
-def _name(low: float, high: float) -> str:
-    return f"{low:g}_up" if np.isinf(high) else f"{low:g}_{high:g}"
 
 
 def _binned() -> list[tuple[str, str, str, str, Better, Compute]]:
@@ -56,12 +63,12 @@ def _binned() -> list[tuple[str, str, str, str, Better, Compute]]:
             until = "and more" if np.isinf(high) else f"to {high:g}"
             rows.append(
                 (
-                    f"f1_{key}_{_name(low, high)}",
+                    f"f1_{key}_{range_name(low, high)}",
                     f"F1 of objects of {key} {low:g} {until} {unit}",
                     "1",
                     "rocks in views",
                     "higher",
-                    f1_between(column, low, high),
+                    between(share_of(f1, _SCENE), column, low, high),
                 )
             )
     return rows

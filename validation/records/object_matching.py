@@ -1,5 +1,6 @@
 """One label image held against the true one: what was found, missed, split and merged."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +16,34 @@ from validation.errors import InputError
 SPLIT_SHARE = 0.2  # of a true rock in each of two found ones: split
 MERGED_SHARE = 0.5  # of each of two true rocks in one found: merged
 IGNORED_SHARE = 0.5  # of a found rock on true ones that do not count: it does not count either
+_COLUMNS = (
+    "instance",
+    "status",
+    "found",
+    "iou",
+    "width_px",
+    "boundary_px",
+    "split",
+    "merged",
+    "place",
+)
+_KINDS = {
+    "instance": "Int64",
+    "found": "Int64",
+    "width_px": "float64",
+    "split": "boolean",
+    "merged": "boolean",
+}
+
+
+def columns(mask: NDArray[np.bool_]) -> float:
+    """Columns that a mask (rows, cols) within its window spans."""
+    return float(mask.shape[1])
+
+
+def equivalent_diameter(mask: NDArray[np.bool_]) -> float:
+    """Diameter of the disk that has as many pixels as a mask, 2 √(A/π)."""
+    return float(2 * np.sqrt(np.count_nonzero(mask) / np.pi))
 
 
 @dataclass(frozen=True)
@@ -22,7 +51,8 @@ class Rule:
     """Which rocks count."""
 
     min_iou: float
-    min_width_px: int
+    min_width_px: float
+    width: Callable[[NDArray[np.bool_]], float] = columns  # of a mask within its window
 
 
 def judge(
@@ -38,7 +68,8 @@ def judge(
     count. `status` is `matched` (IoU above min_iou, at which a partner is the only one), `missed`
     or `extra`. As COCO has it, a found rock that matches a true one which does not count, lies on
     such by half, is under the least width or touches the frame's border is neither right nor wrong
-    and has no row. `boundary_px` is the median distance between the outlines, both ways; `split`
+    and has no row. `found` is the found rock's number, `place` the true one's, or for an extra one
+    minus its own. `boundary_px` is the median distance between the outlines, both ways; `split`
     and `merged` say whether two found rocks hold a fifth of the true one each, and whether a found
     rock that holds half of it holds half of another.
 
@@ -68,8 +99,9 @@ def judge(
             {
                 "instance": number - 1,
                 "status": "matched" if matched else "missed",
+                "found": partner if matched else pd.NA,
                 "iou": iou[number, partner] if matched else np.nan,
-                "width_px": window[1].stop - window[1].start,
+                "width_px": rule.width(truth[window] == number),
                 "boundary_px": _boundary_px(truth, number, found, partner, outlines)
                 if matched
                 else np.nan,
@@ -85,14 +117,12 @@ def judge(
     for number, window in enumerate(ndi.find_objects(found), start=1):
         if window is None or iou[:, number].max() > rule.min_iou:
             continue
-        width = window[1].stop - window[1].start
+        width = rule.width(found[window] == number)
         ignored = common[free, number].sum() >= IGNORED_SHARE * found_px[number]
         if ignored or width < rule.min_width_px or _on_border(window, truth.shape):
             continue
-        rows.append({"status": "extra", "width_px": width, "place": -number})
-    columns = ["instance", "status", "iou", "width_px", "boundary_px", "split", "merged", "place"]
-    kinds = {"instance": "Int64", "split": "boolean", "merged": "boolean"}
-    return pd.DataFrame(rows, columns=columns).astype(kinds)
+        rows.append({"status": "extra", "found": number, "width_px": width, "place": -number})
+    return pd.DataFrame(rows, columns=list(_COLUMNS)).astype(_KINDS)
 
 
 def _on_border(window: tuple[slice, slice], shape: tuple[int, ...]) -> bool:

@@ -1,0 +1,1 @@
+"""Sources of pictures with known masks, a file each."""

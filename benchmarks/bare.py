@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 from timing import timed
 
-from synth.camera.camera import Pose, RenderCamera
+from synth.camera.camera import RenderCamera
+from synth.camera.pose import Pose
 from synth.light import Stage
 from synth.light.photometry import towards_sun
 from synth.light.rays import directions

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from skimage import data
 
 from synth.bed.make import make_tile
-from synth.camera.camera import Pose
+from synth.camera.pose import Pose
 from synth.light.spec_stage import spec_stage
 from synth.render import open_renderer, render_view
 from synth.scene.scene import build_scene

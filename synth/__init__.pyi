@@ -7,8 +7,8 @@ from .arrays import Image as Image
 from .arrays import LabelImage as LabelImage
 from .bed.bed import Bed as Bed
 from .bed.stage import render_bed as render_bed
-from .camera.camera import Pose as Pose
 from .camera.camera import RenderCamera as RenderCamera
+from .camera.pose import Pose as Pose
 from .errors import MissingBackendError as MissingBackendError
 from .errors import RenderError as RenderError
 from .errors import ReplayError as ReplayError

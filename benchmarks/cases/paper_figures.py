@@ -7,7 +7,8 @@ from skimage.draw import polygon
 
 import rockshape
 from synth.shapes.draw import draw_series
-from synth.shapes.series import LONG_SIDE_PX, shape_series
+from synth.shapes.series import shape_series
+from synth.shapes.shape import LONG_SIDE_PX
 
 SEED = 22_000
 # Knobs in the order of the figures. Figure 8: "3 and 4 closer than 1 and 2". Figure 9: the steps

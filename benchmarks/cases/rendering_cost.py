@@ -9,7 +9,7 @@ from bare import BareRenderer
 from case import Case, Cell, Column, Table
 from timing import in_fresh_process, memory_mb, timed, timed_with_children
 
-from synth.camera.camera import Pose
+from synth.camera.pose import Pose
 from synth.dataset.workers import worker_pool
 from synth.dataset.write import write_scene
 from synth.light import light_scene

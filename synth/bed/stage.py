@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from synth.arrays import Floats, Ints
 from synth.bed.bed import Bed
-from synth.camera.camera import Pose, RenderCamera
+from synth.camera.camera import RenderCamera
+from synth.camera.pose import Pose
 from synth.errors import SpecError
 from synth.geometry.mesh import vertex_normals
 from synth.light import Body, Stage

@@ -6,7 +6,8 @@ import numpy as np
 from msgspec import UnsetType
 from scipy.spatial.transform import Rotation
 
-from synth.camera.camera import Pose, RenderCamera
+from synth.camera.camera import RenderCamera
+from synth.camera.pose import Pose
 from synth.spec import SceneSpec
 
 _CAMERA, _POSE = 701, 702  # streams of random numbers

@@ -5,7 +5,10 @@ from dataclasses import replace
 import numpy as np
 
 from synth.arrays import Floats
-from synth.camera.camera import PRESETS, Pose, RenderCamera, check_lens, look_at
+from synth.camera.camera import RenderCamera
+from synth.camera.lens import check_lens
+from synth.camera.pose import Pose, look_at
+from synth.camera.presets import PRESETS
 from synth.spec.view import CameraSpec, ViewsSpec
 
 

@@ -9,7 +9,8 @@ from scipy.spatial import ConvexHull
 from scipy.spatial.distance import cdist
 
 from synth.arrays import Floats
-from synth.camera.camera import Pose, RenderCamera
+from synth.camera.camera import RenderCamera
+from synth.camera.pose import Pose
 from synth.dataset.bop_canvas import Beyond, Canvas, Window, united
 from synth.geometry.mesh import Mesh
 from synth.render.silhouettes import Cutout

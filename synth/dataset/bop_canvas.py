@@ -9,7 +9,9 @@ from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 
 from synth.arrays import Floats
-from synth.camera.camera import Pose, RenderCamera, distorted, undistorted
+from synth.camera.camera import RenderCamera
+from synth.camera.lens import distorted, undistorted
+from synth.camera.pose import Pose
 from synth.geometry.mesh import Mesh
 from synth.light.rays import directions
 from synth.scene.scene import SceneModel

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from synth.camera.camera import Pose
+from synth.camera.pose import Pose
 from synth.rocks import RockModel
 from synth.rocks.outlines import Form, plane_across
 from synth.rocks.truth import Truth, maximum_projection_sphericity

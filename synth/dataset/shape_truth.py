@@ -5,7 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from synth.camera.camera import Pose, RenderCamera
+from synth.camera.camera import RenderCamera
+from synth.camera.pose import Pose
 from synth.dataset.bop import model_info
 from synth.dataset.further_truth import form_outline, further_truth
 from synth.geometry.mesh import Mesh

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from synth.arrays import ColourImage, DepthImage, Image, LabelImage, NormalImage
 from synth.camera.calibration import reported_pose
-from synth.camera.camera import Pose
+from synth.camera.pose import Pose
 from synth.dataset.depth import decode_depth, depth_scale_mm, encode_depth
 from synth.dataset.files import plain
 from synth.dataset.generate import generate_dataset

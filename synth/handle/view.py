@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synth.arrays import ColourImage, DepthImage, Image, LabelImage, NormalImage
-from synth.camera.camera import Pose, RenderCamera
+from synth.camera.camera import RenderCamera
+from synth.camera.pose import Pose
 from synth.handle.html import figure_html
 
 if TYPE_CHECKING:

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synth.arrays import Floats, Singles
-from synth.camera.camera import Pose, RenderCamera
+from synth.camera.camera import RenderCamera
+from synth.camera.pose import Pose
 from synth.light.air import Air
 from synth.light.body import Body
 from synth.light.colour import Appearance

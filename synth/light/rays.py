@@ -9,7 +9,9 @@ from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 
 from synth.arrays import Singles
-from synth.camera.camera import Pose, RenderCamera, undistorted
+from synth.camera.camera import RenderCamera
+from synth.camera.lens import undistorted
+from synth.camera.pose import Pose
 from synth.light.body import Body
 
 Indices = NDArray[np.int64]

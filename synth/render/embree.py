@@ -5,7 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.camera.camera import Pose, RenderCamera
+from synth.camera.camera import RenderCamera
+from synth.camera.pose import Pose
 from synth.light import Stage
 from synth.light.rays import Surfaces, directions
 

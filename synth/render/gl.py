@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from OpenGL import contextdata
 from pyrender.constants import GLTF, RenderFlags
 
-from synth.camera.camera import Pose, RenderCamera
+from synth.camera.camera import RenderCamera
+from synth.camera.pose import Pose
 from synth.light import Body, Stage
 
 # pyrender collects garbage whenever a context is deleted; the imported modules, which stay, need

@@ -6,7 +6,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from synth.camera.camera import Pose
+from synth.camera.pose import Pose
 
 
 class Renderer(Protocol):

@@ -3,7 +3,8 @@
 import numpy as np
 
 from synth.arrays import Singles
-from synth.camera.camera import Pose, RenderCamera
+from synth.camera.camera import RenderCamera
+from synth.camera.pose import Pose
 from synth.light import Stage
 from synth.light.rays import directions
 

@@ -6,7 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synth.arrays import Floats
-from synth.camera.camera import Pose, RenderCamera, border_rays, project
+from synth.camera.camera import RenderCamera
+from synth.camera.pose import Pose
+from synth.camera.projection import border_rays, project
 from synth.light import Stage
 from synth.light.colour import luminance
 from synth.render.interface import Renderer

@@ -7,7 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synth.arrays import Floats
-from synth.camera.camera import Pose, RenderCamera, border_rays
+from synth.camera.camera import RenderCamera
+from synth.camera.pose import Pose
+from synth.camera.projection import border_rays
 from synth.errors import SpecError
 from synth.geometry.mesh import Mesh
 from synth.spec.population import PopulationSpec

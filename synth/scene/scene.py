@@ -8,7 +8,8 @@ import msgspec
 import numpy as np
 
 from synth.arrays import Floats
-from synth.camera.camera import Pose, RenderCamera
+from synth.camera.camera import RenderCamera
+from synth.camera.pose import Pose
 from synth.camera.trajectories import camera_distance_m, camera_of, stations
 from synth.rocks import RockModel, quarry
 from synth.rocks.family import Make

@@ -2,7 +2,9 @@
 
 from dataclasses import replace
 
-from synth.camera.camera import PRESETS, Pose, RenderCamera
+from synth.camera.camera import RenderCamera
+from synth.camera.pose import Pose
+from synth.camera.presets import PRESETS
 from synth.errors import SpecError
 from synth.light import Stage
 from synth.render.interface import Renderer

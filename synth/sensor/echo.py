@@ -5,7 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from synth.arrays import Floats
-from synth.camera.camera import RenderCamera, pixel_rays, undistorted
+from synth.camera.camera import RenderCamera
+from synth.camera.lens import undistorted
+from synth.camera.projection import pixel_rays
 from synth.light.rays import directions
 from synth.sensor.sensor import SensorInput
 

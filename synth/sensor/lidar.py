@@ -6,7 +6,8 @@ import numpy as np
 from msgspec import Meta, Struct
 
 from synth.arrays import Floats, Ints
-from synth.camera.camera import RenderCamera, border_rays, project
+from synth.camera.camera import RenderCamera
+from synth.camera.projection import border_rays, project
 from synth.sensor.echo import Echo, echo_of, ray_lengths
 from synth.sensor.sensor import Capture, Sensor, SensorInput
 

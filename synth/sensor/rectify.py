@@ -8,14 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synth.arrays import Floats, Mask
-from synth.camera.camera import (
-    Reals,
-    RenderCamera,
-    border_rays,
-    distorted,
-    pixel_rays,
-    undistorted,
-)
+from synth.camera.camera import RenderCamera
+from synth.camera.lens import Reals, distorted, undistorted
+from synth.camera.projection import border_rays, pixel_rays
 
 Bytes = NDArray[np.uint8]
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from synth.arrays import Floats
-from synth.camera.camera import PRESETS
+from synth.camera.presets import PRESETS
 from synth.errors import SpecError
 
 

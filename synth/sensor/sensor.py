@@ -8,7 +8,8 @@ import numpy as np
 from msgspec import Struct
 
 from synth.arrays import Floats, Singles
-from synth.camera.camera import Pose, RenderCamera
+from synth.camera.camera import RenderCamera
+from synth.camera.pose import Pose
 from synth.errors import SpecError
 from synth.light import Stage
 from synth.render.interface import Renderer

@@ -5,7 +5,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from synth.arrays import Floats
-from synth.camera.camera import right_eye
+from synth.camera.pose import right_eye
 from synth.sensor.exposure import eight_bits
 from synth.sensor.rectify import Rectification, rectification_of
 from synth.sensor.rig import rig_of

@@ -7,7 +7,8 @@ from msgspec import Meta, Struct
 from scipy.ndimage import binary_fill_holes
 
 from synth.arrays import Floats
-from synth.camera.camera import pixel_rays, undistorted
+from synth.camera.lens import undistorted
+from synth.camera.projection import pixel_rays
 from synth.sensor.sensor import Capture, Sensor, SensorInput
 from synth.sensor.stereo import stereo_depth_m
 from synth.sensor.triangulation import adaptive_vertices, mesh_values, regular_vertices

@@ -12,7 +12,8 @@ from synth.errors import SpecError
 from synth.shapes.outline import axis_ratio, polygon_area
 from synth.shapes.raster import PAPER, enclosed_pixels, inked_cell
 from synth.shapes.roughness import RoughOutline, rough_outline
-from synth.shapes.series import Shape, shape_series
+from synth.shapes.series import shape_series
+from synth.shapes.shape import Shape
 from synth.spec.shapes import CHART, JITTER_RMS_PX, MAX_JITTER_PX, SIZES_PX
 
 _CELL_PX = 260  # a shape's share of the row, unless its size is given

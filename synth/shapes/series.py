@@ -7,50 +7,24 @@ import numpy as np
 
 from synth.arrays import Floats
 from synth.errors import SpecError
-from synth.shapes.outline import RoundedPolygon, largest_disc_px, rectangle
+from synth.shapes.outline import RoundedPolygon
 from synth.shapes.roughness import Roughness
+from synth.shapes.rounded_polygons import rounded_polygons
+from synth.shapes.shape import LONG_SIDE_PX, Shape, turn
 from synth.spec.shapes import CHART, SERIES_NAMES
 from synth.spec.wording import expected_one_of
 
-LONG_SIDE_PX = 200.0
 _ROUNDNESS = (0.03, 0.75)  # ends of the series `roundness`
 _RECTANGLE_RATIO = 0.78  # of the series `roundness`
 _BOTH_SIDES = (0.35, 0.95)  # short over long side, ends of the series `both`
 _SIDES = (0.18, 0.96)  # short over long side, ends of the series `sphericity`
 _CORNER_ROUNDNESS = 0.6  # of the series `sphericity`
-_CORNERS = 7
 _WAVES = 0.03  # RMS of the series `rough`, over √(A/π)
 _DEPTHS = (0.3, 0.0)  # ends of the series `jagged`
 _JAGGED_ROUNDNESS = 0.7
-_STEPS = 400
-_ATTEMPTS = 100  # polygons drawn before the values count as impossible
 _MAX_SHAPES = 100
-_TOLERANCE = 1e-9
 _CLASSES = np.arange(1, 10) / 10.0  # of roundness, the chart's rows
 _CHART_SIDES = np.linspace(0.30, 0.94, 9)  # short over long side, the chart's columns
-
-
-@dataclass(frozen=True, eq=False)
-class Shape:
-    """Shape of a series."""
-
-    outline: RoundedPolygon
-    knob: float  # the series' own: short over long side for `sphericity`, else roundness
-    sides_px: tuple[float, float]  # long and short side of the smallest rectangle
-    roughness: Roughness | None = None  # laid on the outline when it is drawn
-
-    def placed(self, *, size_px: float | None, turn_deg: float) -> "Shape":
-        """Shape with another long side, if one is given, turned anticlockwise."""
-        factor = 1.0 if size_px is None else size_px / self.sides_px[0]
-        if factor == 1.0 and turn_deg == 0.0:
-            return self
-        turned = factor * self.outline.corners_px @ _turn(np.radians(turn_deg)).T
-        long_px, short_px = self.sides_px
-        return replace(
-            self,
-            outline=RoundedPolygon(corners_px=turned, radius_px=factor * self.outline.radius_px),
-            sides_px=(factor * long_px, factor * short_px),
-        )
 
 
 @dataclass(frozen=True)
@@ -107,7 +81,7 @@ def roundness_series(knobs: Floats, rng: np.random.Generator) -> list[Shape]:
     The knob is roundness. The polygon is stretched along the rectangle's sides so that the
     rounded shape fills it: sides of a sum are sums of sides.
     """
-    return _settled(knobs.tolist(), [_RECTANGLE_RATIO] * len(knobs), rng)
+    return rounded_polygons(knobs.tolist(), [_RECTANGLE_RATIO] * len(knobs), rng)
 
 
 def rough_series(knobs: Floats, rng: np.random.Generator) -> list[Shape]:
@@ -122,7 +96,7 @@ def jagged_series(knobs: Floats, rng: np.random.Generator) -> list[Shape]:
     The knob is the teeth's mean depth over √(A/π); at 0 the outline is smooth. The deepest have
     the angularity of the paper's figure 8.
     """
-    smooth = _settled([_JAGGED_ROUNDNESS], [_RECTANGLE_RATIO], rng)[0]
+    smooth = rounded_polygons([_JAGGED_ROUNDNESS], [_RECTANGLE_RATIO], rng)[0]
     return [
         replace(smooth, knob=float(depth), roughness=Roughness("teeth", float(depth)))
         for depth in knobs
@@ -134,7 +108,7 @@ def both_series(knobs: Floats, rng: np.random.Generator) -> list[Shape]:
 
     The knob is roundness; short over long side rises with it, in proportion.
     """
-    return _settled(knobs.tolist(), np.interp(knobs, _ROUNDNESS, _BOTH_SIDES).tolist(), rng)
+    return rounded_polygons(knobs.tolist(), np.interp(knobs, _ROUNDNESS, _BOTH_SIDES).tolist(), rng)
 
 
 def chart(rng: np.random.Generator) -> list[Shape]:
@@ -144,7 +118,7 @@ def chart(rng: np.random.Generator) -> list[Shape]:
     outline of its own polygon, and every roundness and side known exactly.
     """
     return [
-        _settled([float(roundness)], [float(ratio)], rng)[0]
+        rounded_polygons([float(roundness)], [float(ratio)], rng)[0]
         for roundness in _CLASSES
         for ratio in _CHART_SIDES
     ]
@@ -163,7 +137,7 @@ def sphericity_series(knobs: Floats, rng: np.random.Generator) -> list[Shape]:
         radius = _CORNER_ROUNDNESS * half_short
         x, y = half_long - radius, half_short - radius
         corners = np.array([[-x, -y], [x, -y], [x, y], [-x, y]])
-        turned = corners @ _turn(rng.uniform(-0.06, 0.06)).T
+        turned = corners @ turn(rng.uniform(-0.06, 0.06)).T
         outline = RoundedPolygon(corners_px=turned, radius_px=float(radius))
         sides = (float(2.0 * half_long), float(2.0 * half_short))
         shapes.append(Shape(outline=outline, knob=float(ratio), sides_px=sides))
@@ -177,55 +151,3 @@ SERIES: Mapping[str, Series] = {
     "rough": Series(rough_series, ends=_ROUNDNESS, limits=(0.01, 0.95)),
     "jagged": Series(jagged_series, ends=_DEPTHS, limits=(0.0, 0.35)),
 }
-
-
-def _held(polygon: Floats, roundness: float, ratio: float) -> Shape | None:
-    """Polygon rounded to a roundness inside a rectangle of a ratio.
-
-    Each step turns the polygon into its rectangle and stretches it by the side wanted over the
-    side found. The inscribed disc, and with it the rounding, goes with the short side; along the
-    long side a power makes up for the rounding's share. None where two rectangles are so nearly
-    the smallest that the steps never settle on one.
-    """
-    target = 0.85 * LONG_SIDE_PX * np.array([1.0, ratio])
-    factor = roundness / (1.0 - roundness)
-    corners = polygon
-    for _ in range(_STEPS):
-        radius = factor * largest_disc_px(corners)
-        long, short, bearing = rectangle(corners, margin=radius)
-        stretch = target / np.array([long, short])
-        if np.abs(stretch - 1.0).max() < _TOLERANCE:
-            outline = RoundedPolygon(corners_px=corners, radius_px=radius)
-            return Shape(outline=outline, knob=roundness, sides_px=(long, short))
-        stretch **= np.array([long / (long - 2.0 * radius), 1.0])
-        corners = corners @ _turn(-bearing).T * np.clip(stretch, 0.5, 2.0)
-    return None
-
-
-def _settled(
-    roundness: Sequence[float], ratios: Sequence[float], rng: np.random.Generator
-) -> list[Shape]:
-    """One random polygon in all those roundnesses and ratios, drawn anew until all settle.
-
-    Raises:
-        SpecError: no polygon of many settles.
-    """
-    for _ in range(_ATTEMPTS):
-        polygon = _random_polygon(rng)
-        shapes = [_held(polygon, *pair) for pair in zip(roundness, ratios, strict=True)]
-        settled = [shape for shape in shapes if shape is not None]
-        if len(settled) == len(shapes):
-            return settled
-    raise SpecError(f"knobs: expected values that one polygon can take, found {list(roundness)}")
-
-
-def _random_polygon(rng: np.random.Generator) -> Floats:
-    """Convex polygon whose corners lie unevenly round an ellipse."""
-    gaps = rng.uniform(0.55, 1.45, size=_CORNERS)
-    bearing_rad = rng.uniform(0.0, 2.0 * np.pi) + 2.0 * np.pi * np.cumsum(gaps) / gaps.sum()
-    return 0.5 * LONG_SIDE_PX * np.column_stack([np.cos(bearing_rad), 0.75 * np.sin(bearing_rad)])
-
-
-def _turn(angle_rad: float) -> Floats:
-    cosine, sine = np.cos(angle_rad), np.sin(angle_rad)
-    return np.array([[cosine, -sine], [sine, cosine]])

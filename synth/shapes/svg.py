@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from synth.arrays import Floats
 from synth.shapes.outline import RoundedPolygon
-from synth.shapes.series import Shape
+from synth.shapes.shape import Shape
 
 _EVERY = 2  # points of the pen's line that are kept: one a pixel
 _PAPER, _FILL, _INK = "#ececec", "#a8a8a8", "#282828"

@@ -8,7 +8,7 @@ import pytest
 
 from rockshape.camera.camera import Camera, PinholeLike, as_camera
 from rockshape.errors import InputError
-from synth.camera.camera import PRESETS
+from synth.camera.presets import PRESETS
 
 INTRINSICS = {"fx": 300.0, "fy": 301.0, "cx": 32.5, "cy": 24.0}
 CAMERA = Camera(**INTRINSICS, width=66, height=49)

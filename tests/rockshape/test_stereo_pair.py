@@ -200,7 +200,7 @@ def test_synths_rendered_pair() -> None:
 
 
 def synth_baseline(preset: str) -> float:
-    from synth.camera.camera import PRESETS
+    from synth.camera.presets import PRESETS
 
     return PRESETS[preset].baseline_m
 

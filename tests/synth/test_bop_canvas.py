@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from synth.camera.camera import PRESETS, look_at
+from synth.camera.pose import look_at
+from synth.camera.presets import PRESETS
 from synth.dataset.bop import scene_gt_info
 from synth.dataset.bop_canvas import Beyond, Canvas
 from synth.light import light_scene

@@ -9,7 +9,8 @@ import pytest
 import synth
 from rockshape.io import read_camera, read_range
 from synth.camera.calibration import reported_camera, reported_pose
-from synth.camera.camera import PRESETS, Pose, look_at
+from synth.camera.pose import Pose, look_at
+from synth.camera.presets import PRESETS
 from synth.dataset.generate import generate_dataset
 from synth.errors import SpecError
 from synth.spec import convert_spec

@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from synth.camera.camera import PRESETS, look_at, project, right_eye
+from synth.camera.pose import look_at, right_eye
+from synth.camera.presets import PRESETS
+from synth.camera.projection import project
 from synth.camera.trajectories import ring
 
 

@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 import synth
-from synth.camera.camera import PRESETS, look_at
+from synth.camera.pose import look_at
+from synth.camera.presets import PRESETS
 from synth.dataset.normals import decode_normals, encode_normals
 from synth.light import light_scene
 from synth.light.colour import LUMINANCE, Appearance, tint

@@ -8,7 +8,7 @@ import msgspec
 import numpy as np
 import pytest
 
-from synth.camera.camera import PRESETS
+from synth.camera.presets import PRESETS
 from synth.dataset.depth import depth_scale_mm, encode_depth
 from synth.dataset.generate import generate_dataset
 from synth.dataset.layout import PARTIAL, scene_number

@@ -5,15 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from synth.camera.camera import (
-    RenderCamera,
-    border_rays,
-    check_lens,
-    distorted,
-    look_at,
-    project,
-    undistorted,
-)
+from synth.camera.camera import RenderCamera
+from synth.camera.lens import check_lens, distorted, undistorted
+from synth.camera.pose import look_at
+from synth.camera.projection import border_rays, project
 from synth.camera.trajectories import camera_of
 from synth.errors import SpecError
 from synth.geometry.mesh import Mesh

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from synth.camera.camera import PRESETS, look_at
+from synth.camera.pose import look_at
+from synth.camera.presets import PRESETS
 from synth.light import light_scene
 from synth.light.photometry import light, reflected, towards_sun
 from synth.light.texture import pattern

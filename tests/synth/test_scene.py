@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from synth.camera.camera import project
+from synth.camera.projection import project
 from synth.errors import SpecError
 from synth.rocks import quarry
 from synth.scene import scene as scene_module

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from synth.camera.camera import look_at, project
+from synth.camera.pose import look_at
+from synth.camera.projection import project
 from synth.camera.trajectories import camera_of, stations
 from synth.errors import SpecError
 from synth.geometry.mesh import volume_m3

@@ -7,7 +7,8 @@ import pytest
 import tifffile
 from scipy.integrate import quad
 
-from synth.camera.camera import RenderCamera, look_at
+from synth.camera.camera import RenderCamera
+from synth.camera.pose import look_at
 from synth.errors import SpecError
 from synth.light import light_scene
 from synth.light.rays import Surfaces

@@ -8,7 +8,7 @@ import pytest
 from pycocotools.coco import COCO
 
 import synth
-from synth.camera.camera import project
+from synth.camera.projection import project
 from synth.light.mast import MastShadow
 from synth.light.thing_body import thing_body
 from synth.rocks.ellipsoid import ellipsoid

@@ -25,6 +25,7 @@ LEFT_OUT = frozenset(
         "rockshape/commands",
         "rockshape/report",
         "synth/cli.py",
+        "synth/commands",
         "validation/api.py",
         "validation/cli.py",
         "validation/commands",

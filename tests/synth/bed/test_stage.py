@@ -5,7 +5,8 @@ import pytest
 
 import synth
 from synth.bed.stage import bed_stage, bed_surface, render_bed
-from synth.camera.camera import Pose, RenderCamera
+from synth.camera.camera import RenderCamera
+from synth.camera.pose import Pose
 from synth.camera.trajectories import ring
 from synth.errors import SpecError
 

@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from synth.camera.camera import PRESETS, RenderCamera, pixel_rays
+from synth.camera.camera import RenderCamera
+from synth.camera.presets import PRESETS
+from synth.camera.projection import pixel_rays
 from synth.sensor.echo import Echo
 from synth.sensor.lidar import LidarOptions, lidar_range_m, shot_pixels
 

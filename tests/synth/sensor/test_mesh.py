@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from scipy.spatial import Delaunay
 
-from synth.camera.camera import RenderCamera, pixel_rays
+from synth.camera.camera import RenderCamera
+from synth.camera.projection import pixel_rays
 from synth.sensor.stereo_mesh import MeshOptions, meshed_depth_m
 from synth.sensor.triangulation import adaptive_vertices, regular_vertices
 

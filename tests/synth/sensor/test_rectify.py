@@ -5,7 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from synth.camera.camera import RenderCamera, pixel_rays, undistorted
+from synth.camera.camera import RenderCamera
+from synth.camera.lens import undistorted
+from synth.camera.projection import pixel_rays
 from synth.light import light_scene
 from synth.render import open_renderer, render_view
 from synth.scene.scene import build_scene

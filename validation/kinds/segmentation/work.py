@@ -12,7 +12,7 @@ from rockshape.camera.camera import Camera
 from rockshape.method import find_method
 from rockshape.observation import Observation
 from rockshape.segmentation import Segmentation
-from synth.camera.camera import PRESETS
+from synth.camera.presets import PRESETS
 from validation.arrays import Floats, Labels
 from validation.execution.units import Unit, UnitResult
 from validation.execution.views import dataset_views

@@ -1,10 +1,11 @@
-"""Command-line arguments that every kind of dataset has: specification, seed, processes, replay."""
+"""Command-line arguments that kinds of dataset share, and checks of names and numbers."""
 
 import argparse
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from synth.errors import SpecError
+from synth.spec.wording import expected_one_of
 
 MAX_SEED = 2**63
 
@@ -52,3 +53,18 @@ def check_number(args: argparse.Namespace, option: str, most: int, *, least: int
     value = getattr(args, option)
     if value is not None and not least <= value <= most:
         raise SpecError(f"--{option}: expected {least} to {most}, found {value}")
+
+
+def check_name(option: str, value: str | None, names: Sequence[str]) -> None:
+    """Check that an option, if it is given, is one of the names.
+
+    Raises:
+        SpecError: it is not.
+    """
+    if value is not None and value not in names:
+        raise SpecError(f"{option}: {expected_one_of(value, names)}")
+
+
+def listed(names: Sequence[str]) -> str:
+    """Names as the help of an option has them."""
+    return f"one of {', '.join(names)}" if len(names) > 1 else names[0]

@@ -8,7 +8,7 @@ from typing import Any
 
 import msgspec
 
-from synth.dataset.arguments import (
+from synth.commands.arguments import (
     add_dataset_arguments,
     check_dataset_arguments,
     check_number,

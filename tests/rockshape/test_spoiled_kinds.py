@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -12,6 +13,7 @@ import rockshape
 import synth
 from tests.rockshape.test_spoiled_points import MOST, SHARE, VALUES
 
+MARGIN_PX = 60  # of ground around the rocks
 PIXEL_M = 0.00082 * 4.5  # of the camera at the rocks
 KINDS = (
     "row behind",
@@ -27,7 +29,10 @@ KINDS = (
 
 @cache
 def rocks(family: str, width_px: int, seed: int) -> tuple[np.ndarray, np.ndarray, object]:
-    """Exact z-depth of five rocks of a family and a width, their labels and the camera."""
+    """Exact z-depth of five rocks of a family and a width, their labels and the camera.
+
+    The frame is cut to the rocks and some ground around them.
+    """
     long_m = width_px * PIXEL_M
     scene = synth.make_scene(
         site="plain",
@@ -36,7 +41,13 @@ def rocks(family: str, width_px: int, seed: int) -> tuple[np.ndarray, np.ndarray
         seed=seed,
     )
     view = scene.render(0)
-    return view.depth_m, np.asarray(view.labels).astype(np.int32), view.camera
+    labels = np.asarray(view.labels).astype(np.int32)
+    rows, cols = (
+        slice(max(0, side.min() - MARGIN_PX), side.max() + MARGIN_PX) for side in np.nonzero(labels)
+    )
+    camera = {name: getattr(view.camera, name) for name in ("fx", "fy")}
+    camera |= {"cx": view.camera.cx - cols.start, "cy": view.camera.cy - rows.start}
+    return view.depth_m[rows, cols], labels[rows, cols], SimpleNamespace(**camera)
 
 
 def table(depth_m: np.ndarray, labels: np.ndarray, camera: object) -> pd.DataFrame:

@@ -12,6 +12,7 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
+from rockshape.camera.lens_terms import lens_term
 from rockshape.errors import InputError
 
 INTRINSICS = ("fx", "fy", "cx", "cy")
@@ -142,6 +143,9 @@ def as_camera(like: object, *, shape: tuple[int, ...] | None = None) -> Camera:
         )
     if getattr(like, "skew", None):
         raise InputError(f"camera: skew: expected none, found {like.skew}")  # type: ignore[attr-defined]
+    unread = lens_term(getattr(like, "__dict__", {}), ("distortion", "skew"))
+    if unread is not None:
+        raise InputError(f"camera: expected a pinhole camera without distortion, found {unread}")
     height, width = getattr(like, "height", None), getattr(like, "width", None)
     if height is None and width is None and shape is not None:
         height, width = shape[:2]

@@ -5,6 +5,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from rockshape.errors import InputError
 from rockshape.numerics.array_argument import array_argument
+from rockshape.rock.grey_levels import grey_levels
 from rockshape.rock.instances import MAX_ID, MAX_LABEL, Instances
 from rockshape.rock.pieces import Pieces, split_pieces
 
@@ -12,11 +13,15 @@ from rockshape.rock.pieces import Pieces, split_pieces
 def instances_of(labels: ArrayLike | Instances, pieces: Pieces = "split") -> Instances:
     """Instances of a label image (rows, cols), 0 the ground; instances as they are.
 
-    Raises: InputError for another shape, fractions and ids out of range.
+    Raises: InputError for another shape, fractions, ids out of range and grey levels.
     """
     if isinstance(labels, Instances):
         return labels
-    return split_pieces(Instances.from_labels(_whole(array_argument("labels", labels))), pieces)
+    numbers = _whole(array_argument("labels", labels))
+    picture = grey_levels(numbers)
+    if picture is not None:
+        raise InputError(f"labels: {picture}")
+    return split_pieces(Instances.from_labels(numbers), pieces)
 
 
 def _whole(labels: NDArray[np.generic]) -> NDArray[np.integer]:

@@ -6,7 +6,12 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from rockshape.camera.lens import Lens
-from rockshape.io.decoding.intrinsics import chosen_view, decode_json, lens_of
+from rockshape.io.decoding.intrinsics import (
+    chosen_view,
+    decode_json,
+    lens_of,
+    refuse_unread_terms,
+)
 from rockshape.io.format import CameraFormat, ImageInfo
 
 if TYPE_CHECKING:
@@ -28,7 +33,9 @@ def read_scene_camera(file: "InputFile", info: ImageInfo | None) -> Lens:
     views = decode_json(file, dict[str, _View])
     records = list(views.values())
     same = all(record == records[0] for record in records)
-    view = views[chosen_view(list(views), info, same=same)]
+    name = chosen_view(list(views), info, same=same)
+    refuse_unread_terms(decode_json(file, dict[str, dict[str, object]])[name], _View)
+    view = views[name]
     return lens_of(view.cam_K, (None, None), info, depth_scale=view.depth_scale)
 
 

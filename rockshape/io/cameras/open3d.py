@@ -7,7 +7,7 @@ import msgspec
 import numpy as np
 
 from rockshape.camera.lens import Lens
-from rockshape.io.decoding.intrinsics import decode_json, lens_of, matrix
+from rockshape.io.decoding.intrinsics import decode_json, lens_of, matrix, refuse_unread_terms
 from rockshape.io.format import CameraFormat, ImageInfo
 
 if TYPE_CHECKING:
@@ -34,6 +34,7 @@ def read_open3d(file: "InputFile", info: ImageInfo | None) -> Lens:
 
     Source: Open3D, `PinholeCameraIntrinsic::ConvertToJsonValue`: the matrix is by columns.
     """
+    refuse_unread_terms(decode_json(file, dict[str, object]), _Parameters)
     found = decode_json(file, _Parameters).intrinsic
     found = found or decode_json(file, _Intrinsic)
     by_columns = np.transpose(matrix(found.intrinsic_matrix, (3, 3), "intrinsic_matrix"))

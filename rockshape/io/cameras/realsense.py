@@ -13,6 +13,7 @@ from rockshape.io.decoding.intrinsics import (
     distortion_of,
     intrinsic_matrix,
     lens_of,
+    refuse_unread_terms,
 )
 from rockshape.io.format import CameraFormat, ImageInfo
 
@@ -49,6 +50,7 @@ def read_realsense(file: "InputFile", info: ImageInfo | None) -> Lens:
     Raises: InputError for a distortion model that is none of Brown, its inverse, or fisheye.
     """
     found = decode_json(file, _Intrinsics)
+    refuse_unread_terms(decode_json(file, dict[str, object]), _Intrinsics)
     name = _model_name(found.model)
     model = MODELS[name]
     if model is None and any(found.coeffs):

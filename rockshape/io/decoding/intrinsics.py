@@ -1,6 +1,6 @@
 """Cameras of the numbers that files give: intrinsic matrices, sizes and distortion coefficients."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeVar
 
@@ -16,6 +16,7 @@ from rockshape.camera.distortion import (
     InverseBrownConrady,
 )
 from rockshape.camera.lens import DisparityScale, Lens
+from rockshape.camera.lens_terms import lens_term
 from rockshape.errors import InputError
 from rockshape.io.format import ImageInfo
 
@@ -35,6 +36,19 @@ def decode_json(file: "InputFile", record: type[T]) -> T:
         return msgspec.json.decode(text_of(file), type=record)
     except (msgspec.DecodeError, UnicodeDecodeError) as error:
         raise file.refusal(str(error)) from None
+
+
+def refuse_unread_terms(camera: Mapping[str, object], record: type[msgspec.Struct]) -> None:
+    """Hold an object of JSON to the lens terms that a record has.
+
+    Raises: InputError for distortion or skew under another name, which would be ignored.
+    """
+    unread = lens_term(camera, record.__struct_fields__)
+    if unread is not None:
+        raise InputError(
+            f"camera: expected no lens terms but those of this format (`rockshape formats`), "
+            f"found {unread}"
+        )
 
 
 def text_of(file: "InputFile") -> bytes:

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from rockshape.errors import InputError
 from rockshape.io.decoding.mask_stack import stack_instances
+from rockshape.rock.grey_levels import grey_levels
 from rockshape.rock.instances import MAX_ID, Instances
 from rockshape.rock.pieces import split_pieces
 
@@ -22,7 +23,7 @@ def instances_of(file: "InputFile", labels: NDArray[Any], info: "ImageInfo") -> 
 
     Floats are read where they are whole. A single value in several pieces is a mask without ids,
     see `split_pieces`.
-    Raises: InputError for anything but whole numbers of at least 0.
+    Raises: InputError for anything but whole numbers of at least 0, and for grey levels.
     """
     if labels.ndim == 3 and 1 not in labels.shape:
         return stack_instances(file, _planes(labels, info), info)
@@ -32,7 +33,11 @@ def instances_of(file: "InputFile", labels: NDArray[Any], info: "ImageInfo") -> 
             f"{file.path}: expected a label image, (rows, cols) of whole numbers with 0 the "
             f"ground, found {labels.shape} of {labels.dtype}"
         )
-    return split_pieces(Instances.from_labels(_whole(file, numbers)), info.pieces)
+    ids = _whole(file, numbers)
+    picture = grey_levels(ids)
+    if picture is not None:
+        raise InputError(f"{file.path}: {picture}")
+    return split_pieces(Instances.from_labels(ids), info.pieces)
 
 
 def _planes(labels: NDArray[Any], info: "ImageInfo") -> NDArray[Any]:
@@ -45,6 +50,11 @@ def _whole(file: "InputFile", labels: NDArray[Any]) -> NDArray[np.integer]:
     if labels.dtype == bool:
         return labels.view(np.uint8)
     if labels.dtype.kind == "f":
+        if np.isnan(labels).any():
+            raise InputError(
+                f"{file.path}: expected a label image of whole numbers with 0 the ground, "
+                f"found {np.count_nonzero(np.isnan(labels))} pixels that are not a number (NaN)"
+            )
         if not (np.isfinite(labels).all() and (np.rint(labels) == labels).all()):
             raise InputError(
                 f"{file.path}: expected a label image of whole numbers, found fractions of "

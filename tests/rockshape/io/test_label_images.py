@@ -31,7 +31,7 @@ def test_labels_are_read_from_an_array(tmp_path: Path, kind: str) -> None:
     ("array", "says"),
     [
         (np.full((2, 2), 0.5), "whole numbers, found fractions of float64"),
-        (np.full((2, 2), np.nan), "whole numbers, found fractions of float64"),
+        (np.full((2, 2), np.nan), r"0 the ground, found 4 pixels that are not a number \(NaN\)"),
         (np.zeros((2, 3, 3), int), r"mask 1: expected \(2, 2\) as the image has, found \(3, 3\)"),
         (np.zeros((1, 2, 2, 2), int), r"found \(1, 2, 2, 2\)"),
         (np.array([["a", "b"]]), "whole numbers, found <U1"),

@@ -12,7 +12,9 @@ import tifffile
 from PIL import Image
 from pycocotools import mask as coco_mask
 
+from rockshape.errors import InputError
 from rockshape.io import read_labels
+from rockshape.rock.given_labels import instances_of
 from rockshape.rock.instances import Instances
 from tests.rockshape.io.scene_files import run_lengths, saved, written
 
@@ -205,3 +207,34 @@ def test_ids_are_kept_in_every_list(tmp_path: Path, number: int) -> None:
     content = json.loads(path.read_text())
     content["features"][0]["id"] = number
     assert [each.id for each in read_labels(written(path, content), shape=SHAPE)] == [number]
+
+
+SMOOTHED = cv2.GaussianBlur(MASK, (0, 0), 1.5)
+LOSSY = cv2.imdecode(cv2.imencode(".jpg", MASK, [cv2.IMWRITE_JPEG_QUALITY, 60])[1], -1)
+PICTURES = {
+    "a blurred mask": SMOOTHED,
+    "a mask that was scaled": cv2.resize(MASK[::2, ::2], SHAPE[::-1]),
+    "a mask that was a JPEG": LOSSY,
+}
+
+
+@pytest.mark.parametrize("picture", PICTURES)
+@pytest.mark.parametrize("name", ["PNG", "TIFF", "NPY", "PGM", "BMP", "WebP", "NPZ"])
+def test_grey_levels_are_no_ids(tmp_path: Path, name: str, picture: str) -> None:
+    path = MASKS[name](tmp_path, PICTURES[picture])
+    with pytest.raises(InputError, match=r"expected a number for each rock, found \d+ numbers"):
+        read_labels(path, shape=SHAPE)
+
+
+@pytest.mark.parametrize("picture", PICTURES)
+def test_nor_in_an_array(picture: str) -> None:
+    with pytest.raises(InputError, match="labels: expected a number for each rock"):
+        instances_of(PICTURES[picture])
+
+
+def test_rocks_that_touch_are_no_grey_levels() -> None:
+    """Tiles without a pixel of ground, and single pixels apart."""
+    tiles = 1 + (ROWS // 3) * 30 + COLS // 3
+    specks = np.where((ROWS % 2 == 0) & (COLS % 2 == 0), 1 + ROWS * SHAPE[1] + COLS, 0)
+    for labels in (tiles, specks):
+        assert len(instances_of(labels)) == len(np.unique(labels[labels > 0]))

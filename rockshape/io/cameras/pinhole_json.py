@@ -73,7 +73,7 @@ def read_pinhole(file: "InputFile", info: ImageInfo | None) -> Lens:
     pinhole = as_camera(found, shape=shape)
     return lens_of(
         k,
-        (pinhole.width, pinhole.height),
+        (found.width, found.height),
         info,
         distortion=distortion,
         depth_scale=pinhole.depth_scale,

@@ -27,6 +27,7 @@ T = TypeVar("T")
 Model = Literal["brown", "inverse brown", "fisheye"]
 LENGTHS = (4, 5, 8, 12, 14)  # of OpenCV's coefficients
 CORNER_ORIGIN = 0.5  # px, of the first pixel's centre where its corner is (0, 0)
+MOST_OFF_MIDDLE = 0.2  # of an image's side, of a principal point without width and height
 MAX_TEXT = 2**22  # bytes of a camera file
 
 
@@ -94,6 +95,8 @@ def lens_of(
     width, height = size
     if width is None and height is None and info is not None:
         height, width = info.shape
+        for name, place, side in (("cx", k[0, 2], width), ("cy", k[1, 2], height)):
+            _check_middle(name, place, side)
     if width is None or height is None:
         raise InputError("camera: width: expected the image's width and height, px, found none")
     pinhole = Camera(
@@ -106,6 +109,19 @@ def lens_of(
         depth_scale=depth_scale,
     )
     return Lens(pinhole, skew_px=float(k[0, 1]), distortion=distortion, disparity=disparity)
+
+
+def _check_middle(name: str, place: float, side: int) -> None:
+    """Hold a principal point to an image whose size the file does not tell.
+
+    Raises: InputError far from the middle, where that of half or twice the image's size lies.
+    """
+    if not abs(place / side - 0.5) <= MOST_OFF_MIDDLE:
+        raise InputError(
+            f"camera: {name}: expected near the middle of the image's {side} px, found {place:g}: "
+            f"another image's, or of one before it was cropped or scaled; give width and height "
+            f"if it is meant"
+        )
 
 
 def intrinsic_matrix(fx: float, fy: float, cx: float, cy: float) -> list[list[float]]:

@@ -143,6 +143,27 @@ def test_average_precision_is_precision_times_recall_over_the_thresholds() -> No
     assert np.isnan(ap([0] * 10, 0, 0))
 
 
+def test_grain_sizes_are_of_the_pictures_and_spread_over_them() -> None:
+    suite = load_suite("photos")
+    records = fabricated(suite)
+    # found sizes are 1.1 of the true ones in picture 0, and now 1.3 in picture 1
+    later = records["scene"] == 1
+    for column in QUANTITIES.values():
+        records.loc[later, column] *= 1.3 / 1.1
+    both = records["status"].isin(["view", "matched"])
+    values = score_values(suite, records[both])
+    for name in ("d16", "d50", "d84"):
+        assert values[f"gravel.image.least_axis_px.{name}_bias"] == pytest.approx(0.2)
+        assert values[f"gravel.image.least_axis_px.{name}_error"] == pytest.approx(0.2)
+        assert values[f"gravel.image.least_axis_px.{name}_spread"] == pytest.approx(0.1)
+    assert values["gravel.image.greatest_axis_px.bias"] == pytest.approx(0.2)
+    assert values["gravel.image.greatest_axis_px.spread"] == pytest.approx(0.1)
+    size = 14.0 + 8 * np.arange(1, 20)
+    off = np.concatenate([0.1 * size, 0.3 * size])
+    assert values["gravel.image.roundness.bias"] == pytest.approx(off.mean())
+    assert values["gravel.image.roundness.spread"] == pytest.approx(off.std())
+
+
 def test_a_border_belongs_to_what_is_nearest() -> None:
     values = np.array([[0, 0, 2, 2, 1, 1, 1, 2, 1, 1, 2, 2, 0, 0]] * 3, dtype=np.int32)
     truth = MASK_KINDS["three-class"].truth_of(values)

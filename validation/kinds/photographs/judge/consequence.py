@@ -13,7 +13,7 @@ from validation.arrays import Floats
 from validation.kinds.photographs.judge.record import BLOCK, PICTURE, ScoreOf
 from validation.kinds.photographs.readings import TRUE
 from validation.scores.object_scores import Compute, of_groups
-from validation.scores.score import Estimate
+from validation.scores.score import Better, Estimate
 from validation.statistics.weighted import mean
 
 AXES = {"least_axis_px": "least axis", "greatest_axis_px": "greatest axis"}
@@ -25,6 +25,7 @@ SHAPES = {
 PERCENTILES = (16, 50, 84)
 
 Difference = Callable[[Floats, Floats], Floats]  # of found and true values
+Pooled = Callable[[Floats, Floats], Floats]  # of values (n,) and their weights (draws, n)
 
 
 def _relative(found: Floats, true: Floats) -> Floats:
@@ -45,14 +46,16 @@ def percentile_ratios(records: pd.DataFrame, column: str, percent: float) -> pd.
     return (found.quantile(percent / 100) / true.quantile(percent / 100)).dropna()
 
 
-def _over_pictures(column: str, percent: float, value: Callable[[Floats], Floats]) -> Compute:
-    """Mean over pictures of a value of their ratios."""
+def _over_pictures(
+    column: str, percent: float, statistic: Pooled, value: Callable[[Floats], Floats]
+) -> Compute:
+    """Statistic over pictures of a value of their ratios."""
 
     def compute(records: pd.DataFrame) -> Estimate:
         ratios = percentile_ratios(records, column, percent)
         shown = pd.DataFrame({"scene": ratios.index})
         values = value(ratios.to_numpy(np.float64))
-        return of_groups(partial(mean, values), shown, records, PICTURE, counted=len(values))
+        return of_groups(partial(statistic, values), shown, records, PICTURE, counted=len(values))
 
     return compute
 
@@ -64,9 +67,7 @@ def spread(values: Floats, weights: Floats) -> Floats:
     return np.where(several, np.sqrt(np.maximum(variance, 0.0)), np.nan)
 
 
-def _of_pairs(
-    column: str, difference: Difference, statistic: Callable[[Floats, Floats], Floats]
-) -> Compute:
+def _of_pairs(column: str, difference: Difference, statistic: Pooled) -> Compute:
     """Statistic of the differences of matched objects with both readings."""
 
     def compute(records: pd.DataFrame) -> Estimate:
@@ -96,34 +97,27 @@ def consequence_scores() -> Iterator[ScoreOf]:
     """Scores of the grain sizes of pictures, then of the readings of single rocks."""
     for column, title in AXES.items():
         for percent in PERCENTILES:
-            bias = _over_pictures(column, percent, lambda ratios: ratios - 1)
-            error = _over_pictures(column, percent, lambda ratios: np.abs(ratios - 1))
-            name, of = f"d{percent}", f"D{percent} of the {title}"
-            yield ScoreOf(
-                f"{name}_bias",
-                f"{of}, mean over true − 1",
-                "1",
-                "pictures",
-                "neither",
-                bias,
-                column,
-            )
-            yield ScoreOf(
-                f"{name}_error", f"{of}, mean |over true − 1|", "1", "pictures", "lower", error,
-                column,
-            )  # fmt: skip
-    for difference, kind, columns in ((_relative, "relative", AXES), (_absolute, "", SHAPES)):
-        for column, title in columns.items():
-            what = f"{title}, {kind} ".rstrip(" ,") if kind else title
-            yield ScoreOf(
-                "bias", f"{what} bias", "1", "found rocks", "neither",
-                _of_pairs(column, difference, mean), column,
-            )  # fmt: skip
-            yield ScoreOf(
-                "spread", f"{what} spread (standard deviation)", "1", "found rocks", "lower",
-                _of_pairs(column, difference, spread), column,
-            )  # fmt: skip
-            yield ScoreOf(
-                "coverage", f"{title}: share of rocks that have it", "share", "rocks", "higher",
-                _coverage(column), column,
-            )  # fmt: skip
+            yield from _of_percentile(column, percent, f"D{percent} of the {title}")
+        yield from _of_readings(column, f"{title}, relative", _relative)
+    for column, title in SHAPES.items():
+        yield from _of_readings(column, title, _absolute)
+
+
+def _of_percentile(column: str, percent: int, title: str) -> Iterator[ScoreOf]:
+    over: tuple[tuple[str, str, Better, Pooled, Callable[[Floats], Floats]], ...] = (
+        ("bias", "mean over true − 1", "neither", mean, lambda ratios: ratios - 1),
+        ("spread", "standard deviation of over true", "lower", spread, lambda ratios: ratios),
+        ("error", "mean |over true − 1|", "lower", mean, lambda ratios: np.abs(ratios - 1)),
+    )
+    for name, what, better, statistic, value in over:
+        compute = _over_pictures(column, percent, statistic, value)
+        key = f"d{percent}_{name}"
+        yield ScoreOf(key, f"{title}, {what}", "1", "pictures", better, compute, column)
+
+
+def _of_readings(column: str, title: str, difference: Difference) -> Iterator[ScoreOf]:
+    bias, scatter = (_of_pairs(column, difference, statistic) for statistic in (mean, spread))
+    yield ScoreOf("bias", f"{title}: bias", "1", "found rocks", "neither", bias, column)
+    yield ScoreOf("spread", f"{title}: spread", "1", "found rocks", "lower", scatter, column)
+    covered = _coverage(column)
+    yield ScoreOf("coverage", f"{title}: coverage", "share", "rocks", "higher", covered, column)

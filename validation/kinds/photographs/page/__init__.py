@@ -1,11 +1,17 @@
 """Page of photographs: a row of scores for each finder, tables by size and of the consequence."""
 
+import math
 from collections.abc import Mapping, Sequence
 
 from markupsafe import Markup
 
 from validation.execution.run import Run
-from validation.kinds.photographs.judge.consequence import AXES, SHAPES
+from validation.kinds.photographs.judge.consequence import (
+    AXES,
+    PERCENTILES,
+    SHAPES,
+    percentile_ratios,
+)
 from validation.kinds.photographs.judge.objects import SIZES_PX
 from validation.kinds.photographs.spec import PhotographsExperiment
 from validation.records.join import RecordKey
@@ -27,7 +33,7 @@ def section(run: Run, experiment: PhotographsExperiment, room: Room) -> Markup:
     scores = {score.name: score for score in run.scores}
     told = experiment.pictures.has_instances
     sizes = [range_name(low, high) for low, high in SIZES_PX]
-    grain_sizes = [(axis, f"d{p}_bias") for axis in AXES for p in (16, 50, 84)]
+    grain_sizes = [(axis, f"d{p}_bias") for axis in AXES for p in PERCENTILES]
     shapes = [(name, s) for name in (*AXES, *SHAPES) for s in ("bias", "spread", "coverage")]
 
     def words(place: RecordKey) -> tuple[str, str]:
@@ -48,6 +54,7 @@ def section(run: Run, experiment: PhotographsExperiment, room: Room) -> Markup:
         by_size=_rows(scores, experiment, [("", f"f1_{size}") for size in sizes]),
         counts=_counts(scores, experiment, sizes),
         grain_sizes=_rows(scores, experiment, grain_sizes),
+        by_picture=_by_picture(run, experiment) if told else (),
         shapes=_rows(scores, experiment, shapes),
         axes=tuple(AXES.values()),
         quantities=(*AXES.values(), *SHAPES.values()),
@@ -79,3 +86,24 @@ def _counts(
     """True rocks of each size, which are the same for all finders."""
     (_, found), *_ = _rows(scores, experiment, [("", f"recall_{size}") for size in sizes])
     return [0 if score is None else score.count for score in found]
+
+
+def _by_picture(
+    run: Run, experiment: PhotographsExperiment
+) -> list[tuple[str, str, int, int, list[float]]]:
+    """Picture, finder, true and matched rocks, and ratios of the percentiles of both axes."""
+    own = run.records[run.records["experiment"] == experiment.name]
+    of_series = {series: own[own["series"] == series] for series in experiment.series}
+    ratios = {
+        series: [percentile_ratios(rows, axis, p) for axis in AXES for p in PERCENTILES]
+        for series, rows in of_series.items()
+    }
+    table = []
+    for number in range(experiment.pictures.count):
+        for series, rows in of_series.items():
+            status = rows.loc[rows["scene"] == number, "status"]
+            matched = int((status == "matched").sum())
+            true = matched + int((status == "missed").sum())
+            of_each = [float(ratio.get(number, math.nan)) for ratio in ratios[series]]
+            table.append((experiment.pictures.name(number), series, true, matched, of_each))
+    return table

@@ -27,7 +27,8 @@ T = TypeVar("T")
 Model = Literal["brown", "inverse brown", "fisheye"]
 LENGTHS = (4, 5, 8, 12, 14)  # of OpenCV's coefficients
 CORNER_ORIGIN = 0.5  # px, of the first pixel's centre where its corner is (0, 0)
-MOST_OFF_MIDDLE = 0.2  # of an image's side, of a principal point without width and height
+RESCALED = 1.3  # ratio of sizes beyond which a principal point is that of an image of another size
+SAME_PROPORTIONS = 0.1  # within which its shares of width and height are the same
 MAX_TEXT = 2**22  # bytes of a camera file
 
 
@@ -95,8 +96,7 @@ def lens_of(
     width, height = size
     if width is None and height is None and info is not None:
         height, width = info.shape
-        for name, place, side in (("cx", k[0, 2], width), ("cy", k[1, 2], height)):
-            _check_middle(name, place, side)
+        _check_middle(float(k[0, 2]) - origin, float(k[1, 2]) - origin, width, height)
     if width is None or height is None:
         raise InputError("camera: width: expected the image's width and height, px, found none")
     pinhole = Camera(
@@ -111,16 +111,19 @@ def lens_of(
     return Lens(pinhole, skew_px=float(k[0, 1]), distortion=distortion, disparity=disparity)
 
 
-def _check_middle(name: str, place: float, side: int) -> None:
+def _check_middle(cx: float, cy: float, width: int, height: int) -> None:
     """Hold a principal point to an image whose size the file does not tell.
 
-    Raises: InputError far from the middle, where that of half or twice the image's size lies.
+    Raises: InputError where it is the middle of an image of other size and the same proportions.
     """
-    if not abs(place / side - 0.5) <= MOST_OFF_MIDDLE:
+    across, down = (cx + 0.5) / width, (cy + 0.5) / height
+    middle = (across + down) / 2
+    alike = middle > 0 and abs(across - down) < SAME_PROPORTIONS * middle
+    if alike and not 1 / RESCALED < 2 * middle < RESCALED:
         raise InputError(
-            f"camera: {name}: expected near the middle of the image's {side} px, found {place:g}: "
-            f"another image's, or of one before it was cropped or scaled; give width and height "
-            f"if it is meant"
+            f"camera: cx, cy: expected near the middle of {width} x {height} px, found {cx:g}, "
+            f"{cy:g}, that of about {2 * middle * width:.0f} x {2 * middle * height:.0f}: "
+            f"of the image before it was scaled; give width and height if it is meant"
         )
 
 

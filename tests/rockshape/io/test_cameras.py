@@ -51,20 +51,27 @@ def test_a_camera_of_another_size_is_refused(tmp_path: Path, scale: float) -> No
     """Which its principal point alone tells, where the file has no size."""
     path = tmp_path / "camera.json"
     path.write_text(json.dumps({key: scale * value for key, value in SIZELESS.items()}))
-    with pytest.raises(InputError, match=r"camera\.json: cx: .*middle of the image's 66 px, found"):
+    with pytest.raises(InputError, match=r"camera\.json: cx, cy: .*middle of 66 x 49 px, found"):
         read_camera(path, shape=(49, 66))
     k = [scale * 300.0, 0.0, scale * 32.5, 0.0, scale * 300.0, scale * 24.0, 0.0, 0.0, 1.0]
     path.write_text(json.dumps({"0": {"cam_K": k}}))
-    with pytest.raises(InputError, match=r"camera\.json: cx: .*middle of the image's 66 px, found"):
+    with pytest.raises(InputError, match=r"camera\.json: cx, cy: .*middle of 66 x 49 px, found"):
         read_camera(path, shape=(49, 66))
 
 
-@pytest.mark.parametrize("cx", [5.0, 80.0])
-def test_a_camera_that_tells_its_size_may_look_past_its_middle(tmp_path: Path, cx: float) -> None:
-    assert read_camera(write(tmp_path, cx=cx), shape=(49, 66)).cx == cx
+@pytest.mark.parametrize("scale", SCALED)
+def test_a_camera_that_tells_its_size_may_look_past_its_middle(
+    tmp_path: Path, scale: float
+) -> None:
+    path = write(tmp_path, cx=scale * 32.5, cy=scale * 24.0)
+    assert read_camera(path, shape=(49, 66)).cx == scale * 32.5
 
 
-def test_a_camera_without_its_size_has_that_of_the_image(tmp_path: Path) -> None:
+@pytest.mark.parametrize("moved", [(-6.0, 4.0), (0.0, -40.0), (-60.0, -40.0), (30.0, 0.0)])
+def test_a_camera_without_its_size_may_be_that_of_a_tile(
+    tmp_path: Path, moved: tuple[float, float]
+) -> None:
     path = tmp_path / "camera.json"
-    path.write_text(json.dumps({**SIZELESS, "cx": 26.0, "cy": 29.0}))
-    assert read_camera(path, shape=(49, 66)).shape == (49, 66)
+    place = {"cx": 32.5 + moved[0], "cy": 24.0 + moved[1]}
+    path.write_text(json.dumps(SIZELESS | place))
+    assert read_camera(path, shape=(49, 66)).cx == place["cx"]

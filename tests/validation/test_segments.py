@@ -1,5 +1,6 @@
 """Segmentations judged on drawn labels, where what is right is known."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import msgspec
@@ -7,6 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from rockshape.method import PAPER, registered
 from rockshape.observation import Observation
 from validation.errors import InputError
 from validation.execution.compare import compare
@@ -23,6 +25,7 @@ from validation.report.page import page_html
 from validation.report.summary import summary_markdown
 from validation.scores.scoring import gate_scores, score_values
 from validation.selfcheck.oracle import mixed, oracle, shuffled
+from validation.suite.decode import decode_experiment
 from validation.suite.gates import Gate, evaluate
 from validation.suite.suite import load_suite
 
@@ -164,6 +167,35 @@ def test_range_that_a_scene_does_not_have_is_refused() -> None:
     table = msgspec.to_builtins(experiment) | {"series": ["robust-sgm"]}
     with pytest.raises(msgspec.ValidationError, match=r"needs scene\.noise\.kind"):
         msgspec.convert(table, type(experiment))
+
+
+def with_series(series: str) -> SegmentationExperiment:
+    """The suite's first experiment in one way, decoded as a suite's table is."""
+    experiment = load_suite("segmentation").experiments[0]
+    table = {**msgspec.to_builtins(experiment), "kind": "segmentation", "series": [series]}
+    return decode_experiment(table, where="my.toml", path="experiment[0]")
+
+
+@pytest.mark.parametrize(
+    ("series", "said"),
+    [
+        ("nobody-exact", "expected one of paper, robust, .*, found 'nobody'"),
+        ("wathershed-exact", "did you mean 'watershed'"),
+        ("otsu-exact", "expected other range for otsu, found 'exact'"),
+        ("height-none", "expected other range for height, found 'none'"),
+        ("robust", "expected a way and its range"),
+    ],
+)
+def test_a_way_that_is_not_there_or_has_not_its_range_is_refused(series, said) -> None:
+    with pytest.raises(InputError, match=said):
+        with_series(series)
+
+
+def test_a_registered_method_is_a_way() -> None:
+    with registered(replace(PAPER, name="mine")):
+        assert with_series("mine-exact").series == ("mine-exact",)
+    with pytest.raises(InputError, match="'mine'"):
+        with_series("mine-exact")
 
 
 def tiny() -> SegmentationExperiment:

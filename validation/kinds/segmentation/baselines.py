@@ -1,6 +1,7 @@
 """What anyone would try first: a fixed height, Otsu's threshold, a plain watershed."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,8 +33,16 @@ def _high(observation: Observation) -> NDArray[np.bool_]:
     return np.asarray(np.nan_to_num(plane.height_m(points_m)) > HEIGHT_M)
 
 
-BASELINES: Mapping[str, Callable[[Observation], Labels]] = {
-    "height": fixed_height,
-    "otsu": otsu,
-    "watershed": plain_watershed,
+@dataclass(frozen=True)
+class Baseline:
+    """Plain way to find rocks, by range or by the image alone."""
+
+    segment: Callable[[Observation], Labels]
+    by_range: bool
+
+
+BASELINES: Mapping[str, Baseline] = {
+    "height": Baseline(fixed_height, by_range=True),
+    "otsu": Baseline(otsu, by_range=False),
+    "watershed": Baseline(plain_watershed, by_range=True),
 }

@@ -6,14 +6,11 @@ import msgspec
 from msgspec import Meta
 
 from synth.spec import SceneSpec
+from synth.spec.wording import expected_one_of
+from validation.errors import InputError
 from validation.kinds.segmentation.sources import source_of, split_series
 from validation.suite.experiment import Experiment
 from validation.suite.scene import check_scene_is_single, with_renderer
-
-Way = Annotated[
-    str,
-    Meta(pattern="^((paper|robust|height|watershed)-(exact|stereo|sgm)|(robust|otsu)-none)$"),
-]
 
 
 class SegmentationExperiment(Experiment, frozen=True, kw_only=True, tag="segmentation"):
@@ -25,7 +22,7 @@ class SegmentationExperiment(Experiment, frozen=True, kw_only=True, tag="segment
     """
 
     scenes: Annotated[int, Meta(ge=1, le=9999)]
-    series: Annotated[tuple[Way, ...], Meta(min_length=1)]  # a way and the range it is given
+    series: Annotated[tuple[str, ...], Meta(min_length=1)]  # a way and the range it is given
     scene: SceneSpec = SceneSpec()
     min_iou: Annotated[float, Meta(ge=0.5, le=1)] = 0.5
     min_width_px: Annotated[int, Meta(ge=1)] = 12
@@ -38,7 +35,11 @@ class SegmentationExperiment(Experiment, frozen=True, kw_only=True, tag="segment
         """Leave one place for seed and number of scenes, and ask for range that the scene has."""
         check_scene_is_single(self.scene)
         for series in self.series:
-            _, source = split_series(series)
+            way, source = split_series(series)
+            if not way:
+                raise ValueError(
+                    f"series: expected a way and its range, robust-exact say, found {series!r}"
+                )
             if source_of(series).is_sensed and source != self.scene.noise.kind:
                 raise ValueError(
                     f"series: {series!r} needs scene.noise.kind {source!r}, "
@@ -54,6 +55,22 @@ class SegmentationExperiment(Experiment, frozen=True, kw_only=True, tag="segment
         """What a unit depends on."""
         plain = self.plain(without=("title", "scenes", "pictured"))
         return plain | {"pictured": scene < self.pictured}
+
+    def check(self) -> None:
+        """Check that every way is known, and is given range where it looks at range alone.
+
+        Raises:
+            InputError: one that is not.
+        """
+        # brings SciPy and scikit-image, which a parser needs not
+        from validation.kinds.segmentation.ways import fits_source, known_ways  # noqa: PLC0415
+
+        for series in self.series:
+            way, source = split_series(series)
+            if way not in known_ways():
+                raise InputError(f"series: {expected_one_of(way, known_ways())}")
+            if not fits_source(way, source_of(series)):
+                raise InputError(f"series: expected other range for {way}, found {source!r}")
 
     def settled(self) -> Self:
         """Spec with the renderer of this machine."""

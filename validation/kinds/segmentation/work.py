@@ -77,7 +77,7 @@ def _segment(
     way: str, observation: Observation, truth: ViewTruth, experiment: SegmentationExperiment
 ) -> Segmented:
     if way in BASELINES:
-        return Segmented(BASELINES[way](observation), {}, float("nan"))
+        return Segmented(BASELINES[way].segment(observation), {}, float("nan"))
     made = find_method(way).segment(observation)
     outlines = {one.number: one.outline.points_px for one in made.found if one.outline is not None}
     return Segmented(

@@ -38,12 +38,12 @@ def derivatives(
     """
     turned = _turned(parameters, points)
     x, y, depth = (turned + parameters[3:6]).T
-    seen = depth > MIN_DEPTH_M
-    scale = _focal(parameters) / np.where(seen, depth, MIN_DEPTH_M)
+    seen, depth = depth > MIN_DEPTH_M, np.maximum(depth, MIN_DEPTH_M)
+    scale = _focal(parameters) / depth
     by_place = np.zeros((len(points), 2, 3))
     by_place[:, 0, 0] = by_place[:, 1, 1] = scale
-    by_place[seen, 0, 2] = (-scale * x / depth)[seen]
-    by_place[seen, 1, 2] = (-scale * y / depth)[seen]
+    by_place[:, 0, 2] = np.where(seen, -scale * x / depth, 0.0)
+    by_place[:, 1, 2] = np.where(seen, -scale * y / depth, 0.0)
     found = np.zeros((len(points), 2, 7))
     # a row a of da/dq yields -a [R p]× = R p × a
     found[:, :, :3] = np.cross(turned[:, None], by_place) @ _left_jacobian(parameters[:3])

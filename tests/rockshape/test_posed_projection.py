@@ -25,9 +25,11 @@ def test_derivatives_are_those_of_central_differences(turn: list[float]) -> None
     assert found == pytest.approx(np.stack(differences, axis=-1), rel=1e-6, abs=1e-4)
 
 
-def test_points_behind_a_camera_do_not_move_with_their_depth() -> None:
-    parameters = np.array([0.2, 0.1, -0.3, 0.0, 0.0, -10.0, 6.2])
-    found = derivatives(parameters, POINTS)
+@pytest.mark.parametrize("back_m", [10.0, 1.0])
+def test_points_behind_a_camera_or_in_it_do_not_move_with_their_depth(back_m: float) -> None:
+    parameters = np.array([0.0, 0.0, 0.0, 0.0, 0.0, -back_m, 6.2])
+    points = POINTS[POINTS[:, 2] <= back_m]
+    found = derivatives(parameters, points)
     assert (found[:, :, 5] == 0).all()
     assert np.isfinite(found).all()
 

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+import rockshape
 from rockshape.cli import main
 from validation.errors import InputError
 from validation.execution.compare import compare
@@ -377,21 +378,66 @@ def test_a_mask_without_rocks_or_of_another_size_is_refused() -> None:
             run_unit(Unit(experiment, "", 0))
 
 
+def test_what_is_not_judged_is_neither_right_nor_wrong(folder) -> None:
+    _, mask = drawn()
+    mask[mask == 20] = 255  # the larger disc
+    cv2.imwrite("mask.png", mask)
+    text = SUITE.replace('"mask.png" }', '"mask.png", kind = "partly-judged" }')
+    (folder / "mine.toml").write_text(text, encoding="utf-8")
+    suite = load_suite("mine.toml")
+    (made,) = results(suite)
+    of_otsu = made.records[made.records["series"] == "otsu"]
+    assert of_otsu["status"].value_counts().to_dict() == {"view": 1, "matched": 1}
+    pixels = of_otsu[of_otsu["status"] == "view"].iloc[0]
+    assert pixels["common_px"] == ((mask > 0) & (mask < 255)).sum()
+    assert score_values(suite, made.records)["discs.otsu.pixel_iou"] == 1
+
+
+EXAMPLES = {
+    "river-gravel-1": "grains/1_P1060330_1.jpg",
+    "river-gravel-2": "grains/2_P1060338_0.jpg",
+    "barton-creek": "photos/barton_creek_part.jpg",
+    "curiosity-332": "photos/msl_332_part.jpg",
+    "curiosity-538": "photos/msl_538_part.jpg",
+}
+LANDER = [name for name in SHIPPED if name.startswith("pathfinder-")]
+
+
 def test_shipped_pictures_are_credited_and_those_of_the_examples() -> None:
     folder = ROOT / "validation" / "kinds" / "photographs" / "pictures"
     told = (folder / "README.md").read_text(encoding="utf-8")
-    sources = {
-        "river-gravel-1": "grains/1_P1060330_1.jpg",
-        "river-gravel-2": "grains/2_P1060338_0.jpg",
-        "barton-creek": "photos/barton_creek_part.jpg",
-        "curiosity-332": "photos/msl_332_part.jpg",
-        "curiosity-538": "photos/msl_538_part.jpg",
-    }
-    assert set(sources) == set(SHIPPED)
-    for index, (name, example) in enumerate(sources.items()):
-        assert f"`{name}.jpg`" in told
-        copy = (folder / f"{name}.jpg").read_bytes()
-        assert copy == (ROOT / "examples" / example).read_bytes()
-        made = Shipped(names=tuple(sources)).picture(0, index)
+    assert {*EXAMPLES, *LANDER} == set(SHIPPED)
+    for index, (name, picture) in enumerate(SHIPPED.items()):
+        assert f"`{name}{picture.suffix}`" in told
+        made = Shipped(names=tuple(SHIPPED)).picture(0, index)
         assert made.truth.rock.shape == made.image.shape[:2]
-        assert (made.truth.labels is not None) == SHIPPED[name].has_instances
+        assert (made.truth.labels is not None) == picture.has_instances
+        if name in EXAMPLES:
+            copy = (folder / f"{name}.jpg").read_bytes()
+            assert copy == (ROOT / "examples" / EXAMPLES[name]).read_bytes()
+
+
+@pytest.mark.parametrize("name", LANDER)
+def test_lander_frames_and_their_masks_are_those_of_the_examples(name, tmp_path) -> None:
+    frame, mars = name.removeprefix("pathfinder-"), ROOT / "examples" / "mars"
+    half = ROOT / "examples" / "photos" / f"{frame}_half.png"
+    if half.is_file():
+        picture = cv2.imread(str(half)).repeat(2, axis=0).repeat(2, axis=1)
+    else:
+        picture = cv2.imread(str(mars / f"{frame}.png"))
+    cv2.imwrite(str(tmp_path / f"{frame}.png"), picture)
+    read = rockshape.read(
+        tmp_path / f"{frame}.png", labels=mars / "outlines" / f"{frame}.json"
+    ).instances
+    assert read is not None
+    made = Shipped(names=(name,)).picture(0, 0)
+    shown = made.image if made.image.ndim == 3 else np.repeat(made.image[..., None], 3, axis=2)
+    assert (shown == picture[..., ::-1]).all()
+    assert ((read.to_labels() > 0) == made.truth.rock).all()
+    labels = made.truth.labels
+    assert labels is not None
+    for rock in read:
+        numbers = np.unique(labels[rock.window][rock.mask])
+        assert len(numbers) <= 2  # where two outlines overlap, the later one is on top
+    assert not made.truth.judged.all()
+    assert len(np.unique(labels[~made.truth.judged])) == 1

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from rockshape import Instances, Observation, Segmentation
 from rockshape.inputs.arrays import observe
-from validation.arrays import Floats, Labels
+from validation.arrays import Labels
 from validation.execution.units import Unit, UnitResult
 from validation.kinds.photographs.blocks import Blocks
 from validation.kinds.photographs.overlay import draw
@@ -62,16 +62,17 @@ def _true_rocks(
     labels = picture.truth.labels
     if labels is None:
         return np.zeros(1, dtype=bool), pd.DataFrame()
-    counts = _counts(labels, picture.visible_fraction, experiment)
+    counts = _counts(labels, picture, experiment)
     numbers = set(np.flatnonzero(counts).tolist())
     readings = shape_readings(observation, Instances.from_labels(labels), numbers)
     return counts, readings.add_prefix(TRUE)
 
 
 def _counts(
-    labels: Labels, visible: Floats | None, experiment: PhotographsExperiment
+    labels: Labels, picture: MaskedPicture, experiment: PhotographsExperiment
 ) -> NDArray[np.bool_]:
-    """Which labels are large enough, wholly in the frame and visible enough, (n + 1,)."""
+    """Which labels are judged, large enough, wholly in the frame and visible enough, (n + 1,)."""
+    visible, judged = picture.visible_fraction, picture.truth.judged
     counts = np.zeros(int(labels.max(initial=0)) + 1, dtype=bool)
     for number, window in enumerate(ndi.find_objects(labels), start=1):
         if window is None:
@@ -80,7 +81,9 @@ def _counts(
             side.start > 0 and side.stop < size
             for side, size in zip(window, labels.shape, strict=True)
         )
-        width = equivalent_diameter(labels[window] == number)
+        mask = labels[window] == number
+        width = equivalent_diameter(mask)
+        whole = whole and bool(judged[window][mask].all())
         shown = visible is None or visible[number] >= experiment.min_visible_fraction
         counts[number] = whole and shown and width >= experiment.min_width_px
     return counts
@@ -88,12 +91,12 @@ def _counts(
 
 def _block_rows(picture: MaskedPicture, found: Labels, side_px: int | None) -> pd.DataFrame:
     """A row for each block with the pixels that truth and found have in common and together."""
-    rock = picture.truth.rock
+    rock, judged = picture.truth.rock, picture.truth.judged
     blocks = Blocks((rock.shape[0], rock.shape[1]), side_px)
     block = blocks.of_pixels()
     both, either = (
         np.bincount(block[mask], minlength=blocks.count)
-        for mask in (rock & (found > 0), rock | (found > 0))
+        for mask in (rock & (found > 0), judged & (rock | (found > 0)))
     )
     return pd.DataFrame(
         {

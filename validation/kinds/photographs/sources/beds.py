@@ -50,7 +50,9 @@ class Beds(PictureSource, frozen=True, kw_only=True, tag="beds"):
         labels = bed.labels.astype(np.int32)
         visible = np.zeros(int(labels.max(initial=0)) + 1)
         visible[bed.rocks["id"].to_numpy()] = bed.rocks["visible_fraction"].to_numpy()
-        return MaskedPicture(bed.image, TrueRocks(labels > 0, labels), visible)
+        return MaskedPicture(
+            bed.image, TrueRocks(labels > 0, labels, np.ones(labels.shape, bool)), visible
+        )
 
     def dependencies(self, number: int) -> dict[str, Any]:  # noqa: ARG002
         """Options of the bed; its number is the unit's."""

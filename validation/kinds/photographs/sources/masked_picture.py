@@ -16,6 +16,7 @@ class TrueRocks:
 
     rock: NDArray[np.bool_]  # (rows, cols), whether a pixel is rock
     labels: Labels | None  # (rows, cols), rocks from 1 on; None: they are not told apart
+    judged: NDArray[np.bool_]  # (rows, cols); what is not has a label but is no rock that counts
 
 
 @dataclass(frozen=True, eq=False)

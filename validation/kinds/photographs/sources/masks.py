@@ -7,6 +7,7 @@ from types import MappingProxyType
 
 import numpy as np
 import scipy.ndimage as ndi
+from numpy.typing import NDArray
 
 from rockshape.io import read_image, read_labels
 from validation.arrays import Labels
@@ -14,6 +15,7 @@ from validation.errors import InputError
 from validation.kinds.photographs.sources.masked_picture import MaskedPicture, TrueRocks
 
 GRAIN, BORDER = 1, 2  # classes of a three-class mask
+UNJUDGED = 255  # value of a partly judged mask
 
 
 @dataclass(frozen=True)
@@ -27,9 +29,13 @@ class MaskKind:
 
 def _instances(values: Labels) -> TrueRocks:
     """Each value but 0 is a rock; they are numbered anew."""
-    _, labels = np.unique(values, return_inverse=True)
-    numbers = labels.reshape(values.shape).astype(np.int32) + (0 if (values == 0).any() else 1)
-    return TrueRocks(values > 0, numbers)
+    return TrueRocks(values > 0, _numbered(values), _all(values))
+
+
+def _partly_judged(values: Labels) -> TrueRocks:
+    """Each value but 0 is a rock, but where it is 255 nothing is right or wrong."""
+    judged = values != UNJUDGED
+    return TrueRocks((values > 0) & judged, _numbered(values), judged)
 
 
 def _three_class(values: Labels) -> TrueRocks:
@@ -38,12 +44,22 @@ def _three_class(values: Labels) -> TrueRocks:
     border = values == BORDER
     nearest = ndi.distance_transform_edt(border, return_distances=False, return_indices=True)
     grown = np.asarray(labels[tuple(nearest)], dtype=np.int32)
-    return TrueRocks(grown > 0, grown)
+    return TrueRocks(grown > 0, grown, _all(values))
 
 
 def _rock(values: Labels) -> TrueRocks:
     """Whatever is not 0 is rock."""
-    return TrueRocks(values > 0, None)
+    return TrueRocks(values > 0, None, _all(values))
+
+
+def _numbered(values: Labels) -> Labels:
+    """Values (rows, cols) but 0 as numbers from 1 on."""
+    _, labels = np.unique(values, return_inverse=True)
+    return labels.reshape(values.shape).astype(np.int32) + (0 if (values == 0).any() else 1)
+
+
+def _all(values: Labels) -> NDArray[np.bool_]:
+    return np.ones(values.shape, dtype=bool)
 
 
 MASK_KINDS: Mapping[str, MaskKind] = MappingProxyType(
@@ -51,6 +67,7 @@ MASK_KINDS: Mapping[str, MaskKind] = MappingProxyType(
         kind.name: kind
         for kind in (
             MaskKind("instances", True, _instances),
+            MaskKind("partly-judged", True, _partly_judged),
             MaskKind("three-class", True, _three_class),
             MaskKind("rock", False, _rock),
         )

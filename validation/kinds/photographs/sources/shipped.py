@@ -20,14 +20,16 @@ _FOLDER = files("validation") / "kinds" / "photographs" / "pictures"
 class ShippedPicture:
     """A picture of the folder `pictures`, whose README has its terms."""
 
-    name: str  # of the JPEG and, with `_mask`, of the PNG
+    name: str  # of the file and, with `_mask`, of the PNG of its mask
     mask: str  # kind of mask
     has_instances: bool
     credit: str
+    suffix: str = ".jpg"
 
 
 _GRAINS = "© 2023 David Mair, imagegrains, BSD-3-Clause"
 _CURIOSITY = "NASA/JPL-Caltech/MSSS, masks of CVIR-Lab/MarsData, CC BY 4.0"
+_PATHFINDER = "NASA/JPL, NASA-PDS/pds4-jparser and jumpjack/VRMLviewer, Apache-2.0; masks ours"
 SHIPPED: Mapping[str, ShippedPicture] = MappingProxyType(
     {
         picture.name: picture
@@ -39,6 +41,10 @@ SHIPPED: Mapping[str, ShippedPicture] = MappingProxyType(
             ),
             ShippedPicture("curiosity-332", "rock", False, _CURIOSITY),
             ShippedPicture("curiosity-538", "rock", False, _CURIOSITY),
+            *(
+                ShippedPicture(f"pathfinder-{frame}", "partly-judged", True, _PATHFINDER, ".png")
+                for frame in ("i924795", "i925510", "i925814", "i944014r", "i944537")
+            ),
         )
     }
 )
@@ -75,7 +81,10 @@ class Shipped(PictureSource, frozen=True, kw_only=True, tag="shipped"):
         )
 
         picture = SHIPPED[self.names[number]]
-        image, mask = _FOLDER / f"{picture.name}.jpg", _FOLDER / f"{picture.name}_mask.png"
+        image, mask = (
+            _FOLDER / f"{picture.name}{picture.suffix}",
+            _FOLDER / f"{picture.name}_mask.png",
+        )
         with as_file(image) as image_path, as_file(mask) as mask_path:
             return read_masked_picture(image_path, mask_path, MASK_KINDS[picture.mask])
 

@@ -8,12 +8,12 @@ from rockshape import Finder, Observation, Segmentation
 from validation.arrays import Labels
 from validation.peers.finders.regions import parted, segmentation
 
-BLOCK_PX = 51
-OPENING_PX = 2  # radius
+BLOCK_PX = 101  # this and the radius suit made beds of seed 500
+OPENING_PX = 3  # radius
 
 
 def local_threshold(observation: Observation) -> Labels:
-    """What is brighter than a Gaussian mean of 51 pixels, opened and parted by a watershed."""
+    """What is brighter than a Gaussian mean of 101 pixels, opened and parted by a watershed."""
     image = observation.image
     bright = image > threshold_local(image, BLOCK_PX)
     return parted(np.asarray(opening(bright, disk(OPENING_PX))), smoothing_px=1.0)

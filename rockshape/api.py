@@ -1,5 +1,7 @@
 """Measurement of arrays: from pixels and range to the measures of each rock in one call."""
 
+from dataclasses import replace
+
 from numpy.typing import ArrayLike
 
 from rockshape.camera.camera import CameraLike
@@ -7,6 +9,7 @@ from rockshape.errors import InputError
 from rockshape.inputs.arrays import observe
 from rockshape.measurement import Measurement
 from rockshape.method import Method
+from rockshape.numerics.array_argument import array_argument
 from rockshape.observation import Observation
 from rockshape.pipeline import measure as measure_observation
 from rockshape.rock.given_labels import instances_of
@@ -24,6 +27,7 @@ def measure(
     camera: CameraLike | None = None,
     labels: ArrayLike | Instances | None = None,
     pieces: Pieces = "split",
+    ignore: ArrayLike | None = None,
     method: str | Method = "robust",
     find: str | Finder | None = None,
     descriptors: bool = False,
@@ -45,6 +49,7 @@ def measure(
     - labels: rocks outlined already: (rows, cols) of whole numbers, 0 the ground, or Instances.
     - pieces: what becomes of labels with a single value in several pieces, a mask without ids:
       `split` makes each piece a rock, `keep` keeps one rock.
+    - ignore: mask (rows, cols), true or not 0 where no rock is to be found: hardware, sky.
     - method: what is measured: `robust`, `paper`, another name in `rockshape.method.methods()`, or
       a Method.
     - find: how rocks are found: `range`, `image`, `both` or `published`, or a Finder; else as the
@@ -69,6 +74,8 @@ def measure(
             camera=camera,
             labels=given,
         )
+    if ignore is not None:
+        observation = replace(observation, ignored=array_argument("ignore", ignore) != 0)
     return measure_observation(
         observation, method=method, find=find, labels=given, descriptors=descriptors
     )

@@ -49,6 +49,7 @@ class Observation:
     resection: "Resection | None" = None
     colour: NDArray[np.generic] | None = None  # (rows, cols, channels), as given; None: grey alone
     instances: Instances | None = None  # rocks outlined already; None: they are to be found
+    ignored: NDArray[np.bool_] | None = None  # (rows, cols), where no rock is to be found
     left_out: Mapping[str, int] = field(default_factory=dict)  # pixels without range, by reason
     pixel_size_m: float | None = None  # side of a pixel on what is seen, where the image tells it
     notes: tuple[str, ...] = ()  # what reading has changed or left out, each in a few words
@@ -73,6 +74,10 @@ class Observation:
             raise InputError(f"points_m: expected {(*shape, 3)}, found {self.points_m.shape}")
         if self.colour is not None and self.colour.shape[:2] != shape:
             raise InputError(f"colour: expected {shape} pixels, found {self.colour.shape}")
+        if self.ignored is not None and self.ignored.shape != shape:
+            raise InputError(
+                f"ignore: expected {shape} as the image has, found {self.ignored.shape}"
+            )
         if self.instances is not None and self.instances.shape != shape:
             raise InputError(
                 f"labels: expected {shape} as the image has, found {self.instances.shape}"

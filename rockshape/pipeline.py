@@ -19,6 +19,7 @@ from rockshape.rock.point_fit import PointCounts
 from rockshape.rock.view import RockView
 from rockshape.rock.visibility import visible_fraction
 from rockshape.segmentation.finders import Finder, find_finder
+from rockshape.segmentation.ignored import without_ignored
 
 if TYPE_CHECKING:
     from rockshape.ground import Ground
@@ -50,6 +51,8 @@ def measure(
     given = _given(observation, labels)
     if given is not None and find is not None:
         raise InputError("find: expected no finder where rocks are given by labels")
+    if given is not None and observation.ignored is not None:
+        raise InputError("ignore: expected rocks that are to be found, found rocks given by labels")
     scene = _scene(locate_camera(observation), method, find, given)
     with one_blas_thread():
         rocks = _measure_rocks(scene, method, described=descriptors)
@@ -102,6 +105,8 @@ def _scene(
         else:
             segment = method.segment if find is None else find_finder(find).segment
             segmented = segment(observation)
+            if observation.ignored is not None:
+                segmented = without_ignored(segmented, observation.ignored)
             instances, ground = segmented.instances, segmented.ground
             frame, found = segmented.frame, segmented.found
             if find is not None and (ground is None or ground.noise is None):

@@ -84,6 +84,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="labels that are one mask without ids: a rock for each piece (default), or keep one",
     )
     inputs.add_argument(
+        "--ignore",
+        type=Path,
+        metavar="FILE",
+        help="mask, in any format of labels, of what is no rock: hardware, a scale bar, sky",
+    )
+    inputs.add_argument(
         "--max-pixels",
         type=int,
         default=2**27,

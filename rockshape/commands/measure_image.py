@@ -35,6 +35,7 @@ class MeasureOptions:
     labels: Path | None
     instances: Path | None
     pieces: Pieces
+    ignore: Path | None
     max_pixels: int
     find: str | None
     method: str
@@ -64,6 +65,7 @@ def measure_image(options: MeasureOptions) -> None:
         camera_view=options.camera_view,
         labels=_labels(options),
         pieces=options.pieces,
+        ignore=options.ignore,
         max_pixels=options.max_pixels,
     )
     encoded = None
@@ -93,6 +95,7 @@ def _check_outputs(options: MeasureOptions) -> None:
         options.right,
         options.camera,
         _labels(options),
+        options.ignore,
     )
     taken = [path.resolve() for path in inputs if path is not None]
     for path in _outputs(options):

@@ -42,6 +42,7 @@ def read(
     camera_view: str | None = None,
     labels: Path | str | None = None,
     pieces: Pieces = "split",
+    ignore: Path | str | None = None,
     max_pixels: int = MAX_PIXELS,
 ) -> Observation:
     """Observation of files, as `rockshape measure` reads them; `measure` takes it.
@@ -51,7 +52,8 @@ def read(
     the baseline. In place of range, right is the right picture of a stereo pair of which image is
     the left one and camera describes both; the point of each pixel is then matched. camera_view
     names one camera of a file of several. With labels, `measure` measures those rocks; pieces tells
-    what becomes of a mask without ids. An image of more than max_pixels is refused.
+    what becomes of a mask without ids. ignore is a mask in any format of labels, not 0 where no
+    rock is to be found. An image of more than max_pixels is refused.
     Where the camera's lens distorts or its pixels are not square, image, range and rocks are
     resampled to those of a pinhole camera with square pixels.
     Raises: InputError, which names the file, for what cannot be read or does not fit the image.
@@ -62,7 +64,7 @@ def read(
         )
     picture = read_picture(image, max_pixels=max_pixels)
     shape, name = picture.pixels.shape, Path(image).name
-    lens = seen = instances = None
+    lens = seen = instances = ignored = None
     if right is not None and (range is not None or range_kind is not None):
         raise InputError(
             "right (--right): expected a stereo pair alone, "
@@ -79,7 +81,9 @@ def read(
             )
         if labels is not None:
             instances = read_labels(labels, shape=shape, image_name=name, pieces=pieces)
-        observation = _observed(picture.pixels, lens, seen, instances)
+        if ignore is not None:
+            ignored = read_labels(ignore, shape=shape, image_name=name, pieces="keep")
+        observation = _observed(picture.pixels, lens, seen, instances, ignored)
     return replace(
         observation,
         pixel_size_m=picture.pixel_size_m if observation.image.shape == shape[:2] else None,
@@ -96,6 +100,7 @@ def _observed(
     lens: Lens | None,
     seen: PointReading | None,
     instances: Instances | None,
+    ignored: Instances | None,
 ) -> Observation:
     """Observation of what was read, resampled where the lens asks for it."""
     camera = None if lens is None else lens.pinhole
@@ -106,14 +111,23 @@ def _observed(
         camera, pixels = rectification.camera, rectification.image(pixels)
         points_m = None if points_m is None else rectification.points(points_m)
         instances = None if instances is None else rectification.rocks(instances)
+        ignored = None if ignored is None else rectification.rocks(ignored)
         size = f"{camera.width} x {camera.height}"
         notes = (*notes, f"image resampled to {size} square pixels without distortion")
     return replace(
         observe(pixels, camera=camera, labels=instances),
         points_m=points_m,
+        ignored=None if ignored is None else _covered(ignored),
         left_out={} if seen is None else seen.left_out,
         notes=notes,
     )
+
+
+def _covered(instances: Instances) -> NDArray[np.bool_]:
+    mask = np.zeros(instances.shape, dtype=bool)
+    for item in instances:
+        mask[item.window] |= item.mask
+    return mask
 
 
 @contextmanager

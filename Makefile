@@ -1,6 +1,6 @@
 # `make demo` and `make test` each set up all they need first; a second run sets up nothing again.
 
-.PHONY: hostile fuzz kill soak demo baseline compare test bench-smoke lint check-wheel example-ci setup clean
+.PHONY: train-check hostile fuzz kill soak demo baseline compare test bench-smoke lint check-wheel example-ci setup clean
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 1)
 
@@ -35,6 +35,13 @@ kill: .venv/.ready
 # A thousand frames in one process: memory, threads and handles stay flat.
 soak: .venv/.ready
 	.venv/bin/python -m tests.hostile.soak 1000
+
+# The extra `train`, some steps of learning, and the shipped weights held to their card.
+train-check: .venv/.ready
+	.venv/bin/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[dev,train]'
+	.venv/bin/python -m training reports/train --tiles 16 --steps 6 --crops 2 --jobs $(JOBS)
+	WITH_TRAINING=1 .venv/bin/pytest tests/training
+	.venv/bin/python -m training.card --jobs $(JOBS)
 
 # Every benchmark at its smallest size: that it works, not how fast it is.
 bench-smoke: .venv/.ready

@@ -10,13 +10,15 @@ import pytest
 from tools.import_graph import PACKAGES, ROOT, Source, imported_names, read_sources
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-FOLDERS = ("tests", "tools", "benchmarks")
+FOLDERS = ("tests", "tools", "benchmarks", "training")
 # tools and benchmarks run as scripts import each other by their bare names
 SCRIPT_FOLDERS = ("tools", "benchmarks", "benchmarks/pictures")
 SCRIPTS = {path.stem for name in SCRIPT_FOLDERS for path in (ROOT / name).iterdir()}
 OWN = {*PACKAGES, *FOLDERS, *SCRIPTS}
 # a plug-in for pytest is only ever imported by pytest
 BROUGHT_BY_THE_HOST = {"pytest"}
+# torch imports it when it writes that format
+BROUGHT_BY_TORCH = {"onnx"}
 # of the dev extra, what is run as a command or is there for the type checker
 COMMANDS = {
     "basedpyright",
@@ -68,8 +70,9 @@ def test_what_the_packages_import_is_declared(by_the_packages):
 
 def test_what_is_declared_is_imported(by_the_packages):
     assert by_the_packages >= REQUIRED
-    for extra in EXTRAS.keys() - {"dev"}:
+    for extra in EXTRAS.keys() - {"dev", "train"}:
         assert by_the_packages >= EXTRAS[extra], extra
+    assert _imported(_folder("training")) | BROUGHT_BY_TORCH >= EXTRAS["train"]
 
 
 def test_the_dev_extra_is_what_tests_and_tools_use_beside(by_the_packages):

@@ -53,6 +53,12 @@ def _image(observation: "Observation") -> "Segmentation":
     return segment_by_image(observation)
 
 
+def _network(observation: "Observation") -> "Segmentation":
+    from rockshape.segmentation.robust import segment_by_network  # noqa: PLC0415
+
+    return segment_by_network(observation)
+
+
 def _both(observation: "Observation") -> "Segmentation":
     from rockshape.segmentation.robust import segment_both  # noqa: PLC0415
 
@@ -65,6 +71,7 @@ FINDERS: Mapping[str, Finder] = MappingProxyType(
         for finder in (
             Finder("range", "rocks that stand on the ground, outlined by range alone", _range),
             Finder("image", "rocks that the image shows, whatever the range", _image),
+            Finder("network", "rocks that a network taught by made pictures finds", _network),
             Finder("both", "by range, then by the image, outlined at the image's edges", _both),
             Finder("published", "tops, sides and bottoms of heights, as published", _published),
         )

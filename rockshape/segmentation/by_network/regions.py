@@ -1,0 +1,78 @@
+"""Regions of an answer: the parts that rocks are put together from, and the seams between them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from skimage.segmentation import watershed
+
+from rockshape.numerics.arrays import Floats
+from rockshape.segmentation.by_network.answer import Answer
+from rockshape.segmentation.by_network.tops import tops
+
+ROCK = 0.35  # probability
+RISE = 0.1  # of the distance, over the greatest in the rock, above the pass to a higher top
+SUMS = 9  # of a region's pixels
+
+
+@dataclass(frozen=True, eq=False)
+class Regions:
+    """Regions 1 to n of a picture and what can be summed over them; row 0 is the ground's."""
+
+    labels: NDArray[np.int32]  # (rows, cols)
+    sums: Floats  # (n + 1, 9): pixels, rock, distance, log width, x, y, x², xy, y²
+    first: NDArray[np.intp]  # (seams,) the lesser region of each seam, 0 the ground
+    second: NDArray[np.intp]  # (seams,)
+    length: Floats  # (seams,) pairs of neighbouring pixels across it
+    border: Floats  # (seams,) sum of the border's probability along it
+
+    @property
+    def count(self) -> int:
+        """Number of regions."""
+        return len(self.sums) - 1
+
+
+def regions_of(answer: Answer) -> Regions:
+    """Regions of a picture: from each top of the distance downwards, within what may be rock."""
+    rock = answer.rock > ROCK
+    place = tops(answer.distance, rock, rise=RISE)
+    markers = np.zeros(answer.rock.shape, dtype=np.int32)
+    markers.ravel()[place] = np.arange(1, len(place) + 1)
+    labels = np.asarray(watershed(-answer.distance, markers, mask=rock), dtype=np.int32)
+    first, second, length, border = _seams(labels, answer.border, len(place))
+    return Regions(labels, _sums(labels, answer, len(place)), first, second, length, border)
+
+
+def _sums(labels: NDArray[np.int32], answer: Answer, count: int) -> Floats:
+    pixels = np.flatnonzero(labels)
+    own = labels.ravel()[pixels]
+    row, col = (part.astype(np.float64) for part in np.divmod(pixels, labels.shape[1]))
+    columns = [
+        None,
+        answer.rock.ravel()[pixels],
+        answer.distance.ravel()[pixels],
+        np.log2(answer.width_px.ravel()[pixels]),
+        col,
+        row,
+        col * col,
+        col * row,
+        row * row,
+    ]
+    return np.column_stack([np.bincount(own, weights=one, minlength=count + 1) for one in columns])
+
+
+def _seams(
+    labels: NDArray[np.int32], border: NDArray[np.float32], count: int
+) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats, Floats]:
+    """Seams between regions, and between regions and the ground, over 4-connected pairs."""
+    pairs, values = [], []
+    for one, two in ((np.s_[:, :-1], np.s_[:, 1:]), (np.s_[:-1], np.s_[1:])):
+        across = np.nonzero(labels[one] != labels[two])
+        left, right = labels[one][across].astype(np.intp), labels[two][across].astype(np.intp)
+        pairs.append(np.minimum(left, right) * (count + 1) + np.maximum(left, right))
+        values.append(np.maximum(border[one][across], border[two][across]))
+    key, inverse = np.unique(np.concatenate(pairs), return_inverse=True)
+    first, second = np.divmod(key, count + 1)
+    length = np.bincount(inverse, minlength=len(key)).astype(np.float64)
+    border_sum = np.bincount(inverse, weights=np.concatenate(values), minlength=len(key))
+    return first, second, length, border_sum.astype(np.float64)

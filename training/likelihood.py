@@ -1,0 +1,97 @@
+"""Likelihood of a node being a rock, fitted to made pictures: `python -m training.likelihood`."""
+
+import argparse
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import minimize
+
+from rockshape.segmentation import by_network
+from rockshape.segmentation.by_network.likelihood import COEFFICIENTS, features_of, terms
+from rockshape.segmentation.by_network.merge_tree import MergeTree, merge_tree
+from rockshape.segmentation.by_network.regions import regions_of
+from rockshape.segmentation.by_network.scales import joint_answer
+from training.augment import draw_crop
+from training.mixture import PARTS, Shard
+from training.shards import make_shards, read_tiles
+from training.tile import SIDE_PX, Tile
+
+Floats = NDArray[np.float64]
+Singles = NDArray[np.float32]
+FITTED = 900  # seed of the tiles that it is fitted to
+_TILES = 16  # of each part
+_NO_ROCK, _ROCK = 0.3, 0.7  # intersection over union with the best rock
+_DRAWS = 2  # other cameras for each
+_RIDGE = 1e-2
+
+
+def fit(tiles: Iterator[Tile]) -> Floats:
+    """Coefficients of the logistic model, with a slight ridge.
+
+    Tiles are seen as by other cameras, so that the answers are as unsure as those of pictures that
+    the network has not been taught with.
+    """
+    rng = np.random.default_rng([FITTED, 80])
+    rows, wanted = [], []
+    for tile in tiles:
+        for _ in range(_DRAWS):
+            features, target = samples(*draw_crop(tile, SIDE_PX, rng))
+            rows.append(features)
+            wanted.append(target)
+    design, target = terms(np.concatenate(rows)), np.concatenate(wanted)
+
+    def cost(solution: Floats) -> tuple[float, Floats]:
+        level = design @ solution
+        share = np.exp(-np.logaddexp(0.0, -level))
+        loss = np.logaddexp(0.0, level) - target * level
+        slope = design.T @ (share - target) + _RIDGE * solution
+        return float(loss.sum() + _RIDGE / 2.0 * solution @ solution), slope
+
+    return np.asarray(minimize(cost, np.zeros(design.shape[1]), jac=True, method="BFGS").x)
+
+
+def samples(picture: Singles, labels: NDArray[np.uint16]) -> tuple[Floats, Floats]:
+    """Features (nodes, k) of a picture's merge tree, and what each node is: 0 none, 1 a rock."""
+    regions = regions_of(joint_answer(picture))
+    tree = merge_tree(regions)
+    truth = labels.astype(np.intp)
+    numbers = int(truth.max()) + 1
+    common = np.bincount(
+        regions.labels.ravel() * numbers + truth.ravel(), minlength=(regions.count + 1) * numbers
+    ).reshape(-1, numbers)[:, 1:]
+    shared = _summed(tree, common[1:].astype(np.float64))
+    whole = np.bincount(truth.ravel(), minlength=numbers)[1:]
+    if numbers == 1:
+        return features_of(tree), np.zeros(len(tree.sums))
+    union = tree.sums[:, :1] + whole - shared
+    overlap = (shared / np.maximum(union, 1.0)).max(axis=1)
+    return features_of(tree), np.clip((overlap - _NO_ROCK) / (_ROCK - _NO_ROCK), 0.0, 1.0)
+
+
+def _summed(tree: MergeTree, leaves: Floats) -> Floats:
+    summed = np.zeros((len(tree.children), leaves.shape[1]))
+    summed[: len(leaves)] = leaves
+    for node, (one, two) in enumerate(tree.children.tolist()):
+        if one >= 0:
+            summed[node] = summed[one] + summed[two]
+    return summed
+
+
+def main() -> None:
+    """Fit and write the coefficients beside the weights."""
+    parser = argparse.ArgumentParser(prog="python -m training.likelihood", description=__doc__)
+    parser.add_argument("folder", type=Path, help="for tiles")
+    parser.add_argument("--jobs", type=int, default=2, help="processes for tiles (%(default)s)")
+    said = parser.parse_args()
+    wanted = [Shard(part.name, FITTED, _TILES) for part in PARTS]
+    solution = fit(read_tiles(make_shards(said.folder, wanted, jobs=said.jobs)))
+    path = Path(by_network.__file__).parent / COEFFICIENTS
+    path.write_text(json.dumps({"coefficients": np.round(solution, 4).tolist()}, indent=1) + "\n")
+    print(f"written: {path}")
+
+
+if __name__ == "__main__":
+    main()

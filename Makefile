@@ -39,7 +39,7 @@ soak: .venv/.ready
 # The extra `train`, some steps of learning, and the shipped weights held to their card.
 train-check: .venv/.ready
 	.venv/bin/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[dev,train]'
-	.venv/bin/python -m training reports/train --tiles 16 --steps 6 --crops 2 --jobs $(JOBS)
+	.venv/bin/python -m training reports/train --tiles 16 --steps 6 --crops 2 --fitted 1 --jobs $(JOBS)
 	WITH_TRAINING=1 .venv/bin/pytest tests/training
 	.venv/bin/python -m training.card --jobs $(JOBS)
 

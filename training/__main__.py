@@ -3,7 +3,9 @@
 import argparse
 from pathlib import Path
 
+from rockshape.segmentation.by_network.weights import LIKELIHOOD, NETWORK
 from training.export import export
+from training.likelihood import fit_likelihood
 from training.mixture import NAMES, shards
 from training.shards import make_shards, read_tiles
 from training.train import Course, train
@@ -21,16 +23,24 @@ def main() -> None:
     parser.add_argument("--steps", type=int, default=8000, help="of learning (%(default)s)")
     parser.add_argument("--crops", type=int, default=8, help="pictures a step (%(default)s)")
     parser.add_argument("--seed", type=int, default=0, help="of weights and crops (%(default)s)")
+    parser.add_argument(
+        "--fitted",
+        type=int,
+        default=16,
+        help="pictures a part for the likelihood (%(default)s)",
+    )
     parser.add_argument("--jobs", type=int, default=2, help="processes for tiles (%(default)s)")
     parser.add_argument("--parts", nargs="+", choices=NAMES, default=NAMES, help="of the mixture")
+    parser.add_argument("--smooth", action="store_true", help="lay the rocks on smooth ground")
     parser.add_argument("--grey", action="store_true", help="show no colour")
     said = parser.parse_args()
-    wanted = shards(said.tiles, only=said.parts)
+    wanted = shards(said.tiles, only=said.parts, smooth=said.smooth)
     paths = make_shards(said.folder / "tiles", wanted, jobs=said.jobs)
     course = Course(steps=said.steps, crops=said.crops, seed=said.seed, grey=said.grey)
     network = train(list(read_tiles(paths)), course, said.folder)
-    export(network, said.folder / "network.onnx")
-    print(f"written: {said.folder / 'network.onnx'}")
+    export(network, said.folder / NETWORK)
+    fit_likelihood(said.folder, tiles=said.fitted, jobs=said.jobs)
+    print(f"written: {said.folder / NETWORK} and {said.folder / LIKELIHOOD}")
 
 
 if __name__ == "__main__":

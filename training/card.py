@@ -7,7 +7,6 @@ they differ. `--write` writes that file afresh.
 import argparse
 import json
 import sys
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -16,9 +15,9 @@ import onnx
 import pandas as pd
 
 from rockshape.segmentation.by_network.instances import cut_rocks
-from rockshape.segmentation.by_network.network import WEIGHTS
 from rockshape.segmentation.by_network.picture import as_fractions
 from rockshape.segmentation.by_network.scales import SCALES, joint_answer
+from rockshape.segmentation.by_network.weights import NETWORK, read_weights
 from synth.dataset.workers import worker_pool
 from training.mixture import JUDGED, PARTS, Shard
 from training.tile import SIDE_PX, Tile
@@ -35,7 +34,7 @@ _TOLERANCE = 0.005  # processors round differently
 
 def card(*, jobs: int) -> dict[str, Any]:
     """Size of the shipped network, and its scores on each part of the mixture."""
-    content = (files("rockshape.segmentation.by_network") / WEIGHTS).read_bytes()
+    content = read_weights(NETWORK)
     with worker_pool(jobs) as pool:
         waiting = {part.name: pool.submit(_scores, part.name) for part in PARTS[::-1]}
         scores = {part.name: waiting[part.name].result() for part in PARTS}

@@ -1,6 +1,5 @@
-"""Likelihood of a node being a rock, fitted to made pictures: `python -m training.likelihood`."""
+"""Likelihood of a node being a rock, fitted to made pictures."""
 
-import argparse
 import json
 from collections.abc import Iterator
 from pathlib import Path
@@ -9,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
-from rockshape.segmentation import by_network
-from rockshape.segmentation.by_network.likelihood import COEFFICIENTS, features_of, terms
+from rockshape.segmentation.by_network.likelihood import features_of, terms
 from rockshape.segmentation.by_network.merge_tree import MergeTree, merge_tree
 from rockshape.segmentation.by_network.regions import regions_of
 from rockshape.segmentation.by_network.scales import joint_answer
+from rockshape.segmentation.by_network.weights import LIKELIHOOD, weights_from
 from training.augment import draw_crop
 from training.mixture import PARTS, Shard
 from training.shards import make_shards, read_tiles
@@ -22,7 +21,6 @@ from training.tile import SIDE_PX, Tile
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
 FITTED = 900  # seed of the tiles that it is fitted to
-_TILES = 16  # of each part
 _NO_ROCK, _ROCK = 0.3, 0.7  # intersection over union with the best rock
 _DRAWS = 2  # other cameras for each
 _RIDGE = 1e-2
@@ -80,18 +78,11 @@ def _summed(tree: MergeTree, leaves: Floats) -> Floats:
     return summed
 
 
-def main() -> None:
-    """Fit and write the coefficients beside the weights."""
-    parser = argparse.ArgumentParser(prog="python -m training.likelihood", description=__doc__)
-    parser.add_argument("folder", type=Path, help="for tiles")
-    parser.add_argument("--jobs", type=int, default=2, help="processes for tiles (%(default)s)")
-    said = parser.parse_args()
-    wanted = [Shard(part.name, FITTED, _TILES) for part in PARTS]
-    solution = fit(read_tiles(make_shards(said.folder, wanted, jobs=said.jobs)))
-    path = Path(by_network.__file__).parent / COEFFICIENTS
-    path.write_text(json.dumps({"coefficients": np.round(solution, 4).tolist()}, indent=1) + "\n")
-    print(f"written: {path}")
-
-
-if __name__ == "__main__":
-    main()
+def fit_likelihood(folder: Path, *, tiles: int, jobs: int) -> None:
+    """Fit the likelihood of the network in a folder to so many tiles of each part."""
+    wanted = [Shard(part.name, FITTED, tiles) for part in PARTS]
+    paths = make_shards(folder / "tiles", wanted, jobs=jobs)
+    with weights_from(folder):
+        solution = fit(read_tiles(paths))
+    text = json.dumps({"coefficients": np.round(solution, 4).tolist()}, indent=1)
+    (folder / LIKELIHOOD).write_text(text + "\n")

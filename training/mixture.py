@@ -14,6 +14,7 @@ from training.tile import SIDE_PX, Tile
 
 _SHARD_TILES = 64
 JUDGED = 10_000  # seeds of tiles to be judged on begin here
+_SMOOTH = {"kinds": ["dust"], "relief": [0.0, 0.1], "filled": 0.0}
 _AFRESH = 8  # tiles of a bed's set, whose bodies are drawn once
 
 
@@ -23,7 +24,7 @@ class Part:
 
     name: str
     share: float
-    make: Callable[[int, int], list[Tile]]  # of a seed, so many
+    make: Callable[[int, int, bool], list[Tile]]  # of a seed, so many, on smooth ground or rough
 
 
 @dataclass(frozen=True)
@@ -32,17 +33,18 @@ class _Beds:
 
     keys: Mapping[str, Any] = field(default_factory=dict)
 
-    def __call__(self, seed: int, tiles: int) -> list[Tile]:
+    def __call__(self, seed: int, tiles: int, smooth: bool) -> list[Tile]:
         made: list[Tile] = []
         for number in range(tiles):
-            spec = self._spec(seed * 100 + number // _AFRESH)
+            spec = self._spec(seed * 100 + number // _AFRESH, smooth)
             bed = make_tile(spec, number % _AFRESH)
             made.append(Tile(bed.image, bed.labels))
         return made
 
-    def _spec(self, seed: int) -> BedSpec:
+    def _spec(self, seed: int, smooth: bool) -> BedSpec:
         size = {"width_px": SIDE_PX, "height_px": SIDE_PX}
-        return convert_bed_spec({**size, **self.keys, "seed": seed}, where="mixture")
+        ground = {"ground": _SMOOTH} if smooth else {}
+        return convert_bed_spec({**size, **self.keys, **ground, "seed": seed}, where="mixture")
 
 
 PARTS: Sequence[Part] = (
@@ -90,18 +92,22 @@ class Shard:
     part: str
     seed: int
     tiles: int
+    smooth: bool = False  # ground, for an ablation
 
     def make(self) -> list[Tile]:
         """Tiles, the same each time."""
-        return {part.name: part for part in PARTS}[self.part].make(self.seed, self.tiles)
+        return {part.name: part for part in PARTS}[self.part].make(
+            self.seed, self.tiles, self.smooth
+        )
 
     @property
     def file(self) -> str:
         """Name of the shard's file."""
-        return f"{self.part}-{self.seed:06d}-{self.tiles}.npz"
+        ground = "-smooth" if self.smooth else ""
+        return f"{self.part}-{self.seed:06d}-{self.tiles}{ground}.npz"
 
 
-def shards(tiles: int, *, only: Collection[str] = NAMES) -> list[Shard]:
+def shards(tiles: int, *, only: Collection[str] = NAMES, smooth: bool = False) -> list[Shard]:
     """Shards that make up about so many tiles, of some parts, at least one tile of each.
 
     They are spread so that any first stretch of them has all parts in about their shares.
@@ -113,7 +119,7 @@ def shards(tiles: int, *, only: Collection[str] = NAMES) -> list[Shard]:
         own = max(1, round(part.share / total * tiles))
         count = -(-own // _SHARD_TILES)
         for number in range(count):
-            shard = Shard(part.name, number, min(_SHARD_TILES, own))
+            shard = Shard(part.name, number, min(_SHARD_TILES, own), smooth)
             places.append(((number + 0.5) / count, shard))
     places.sort(key=lambda place: place[0])
     return [shard for _, shard in places]

@@ -1,5 +1,6 @@
 """Tiles cut from views of made sites: rocks on rough ground, seen as a lander sees them."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import cv2
@@ -17,17 +18,18 @@ from synth.spec.site import with_site
 from training.tile import SIDE_PX, Tile, cut_tiles
 
 _SITES = ("pathfinder", "gale", "dunes", "pathfinder", "plain")
+_PLAIN = ("plain",)
 _VIEWS = 4
 _THINGS = ("ruler", "cable", "coin", "ball", "mast-shadow")
 
 
-def site_tiles(seed: int, tiles: int) -> list[Tile]:
-    """So many tiles of scenes that a seed draws."""
+def site_tiles(seed: int, tiles: int, smooth: bool) -> list[Tile]:
+    """So many tiles of scenes that a seed draws, all on level planes where smooth."""
     made: list[Tile] = []
     scene = 0
     while len(made) < tiles:
         rng = np.random.default_rng([seed, 60, scene])
-        spec = _spec(rng, seed * 100 + scene)
+        spec = _spec(rng, seed * 100 + scene, _PLAIN if smooth else _SITES)
         scene += 1
         try:
             made += _tiles_of(spec, rng)
@@ -36,9 +38,9 @@ def site_tiles(seed: int, tiles: int) -> list[Tile]:
     return made[:tiles]
 
 
-def _spec(rng: np.random.Generator, seed: int) -> SceneSpec:
+def _spec(rng: np.random.Generator, seed: int, sites: Sequence[str]) -> SceneSpec:
     """Specification of a scene: a population of rocks down to a few centimetres, no outcrop."""
-    site = str(rng.choice(_SITES))
+    site = str(rng.choice(sites))
     facets = {"subdivisions": 4}
     distance_m = float(rng.uniform(1.8, 4.5))
     said: dict[str, Any] = {

@@ -2,14 +2,12 @@
 
 import json
 from functools import cache
-from importlib.resources import files
 
 import numpy as np
 
 from rockshape.numerics.arrays import Floats
 from rockshape.segmentation.by_network.merge_tree import MergeTree
-
-COEFFICIENTS = "likelihood.json"
+from rockshape.segmentation.by_network.weights import LIKELIHOOD, read_weights
 
 
 def likelihood(features: Floats) -> Floats:
@@ -17,7 +15,7 @@ def likelihood(features: Floats) -> Floats:
 
     `python -m training.likelihood` fits it to made pictures.
     """
-    level = terms(features) @ _coefficients()
+    level = terms(features) @ _coefficients(read_weights(LIKELIHOOD))
     return np.asarray(np.exp(-np.logaddexp(0.0, -level)))
 
 
@@ -59,6 +57,5 @@ def features_of(tree: MergeTree) -> Floats:
 
 
 @cache
-def _coefficients() -> Floats:
-    text = (files("rockshape.segmentation.by_network") / COEFFICIENTS).read_text("utf-8")
-    return np.array(json.loads(text)["coefficients"])
+def _coefficients(content: bytes) -> Floats:
+    return np.array(json.loads(content)["coefficients"])

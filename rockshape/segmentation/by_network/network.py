@@ -1,8 +1,7 @@
 """The network's answers for a picture of any size."""
 
 import threading
-from functools import cache
-from importlib.resources import files
+from functools import lru_cache
 from itertools import product
 
 import cv2
@@ -11,8 +10,8 @@ import numpy as np
 from rockshape.numerics.arrays import Singles
 from rockshape.segmentation.by_network.answer import CHANNELS, STRIDE, Answer, width_of
 from rockshape.segmentation.by_network.picture import normalized
+from rockshape.segmentation.by_network.weights import NETWORK, read_weights
 
-WEIGHTS = "network.onnx"
 _BLOCK_PX = 1024  # the memory that the network needs grows with its picture's area
 _OVERLAP_PX = 64
 _LOCK = threading.Lock()  # one network answers one picture at a time
@@ -52,15 +51,14 @@ def _forward(channels: Singles) -> Singles:
     _, rows, cols = channels.shape
     padded = np.pad(channels, ((0, 0), (0, -rows % STRIDE), (0, -cols % STRIDE)), mode="symmetric")
     with _LOCK:
-        network = _network()
+        network = _network(read_weights(NETWORK))
         network.setInput(padded[None])
         found = network.forward()
     return np.asarray(found[0, :, :rows, :cols], dtype=np.float32)
 
 
-@cache
-def _network() -> "cv2.dnn.Net":
-    content = (files("rockshape.segmentation.by_network") / WEIGHTS).read_bytes()
+@lru_cache(maxsize=1)
+def _network(content: bytes) -> "cv2.dnn.Net":
     network = cv2.dnn.readNetFromONNX(np.frombuffer(content, dtype=np.uint8))
     network.setPreferableBackend(cv2.dnn.DNN_BACKEND_OPENCV)
     return network

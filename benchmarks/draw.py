@@ -16,6 +16,7 @@ PICTURES = {
     "segmentation_ways": "six kinds of scene as published, robust, and without range",
     "segmentation_mars": "the Mars example as published, robust, and without range",
     "segmentation_cases": "best and worst views of the suite `segmentation` (minutes)",
+    "finder": "photographs with masks, by the image branch and by the network",
     "findings": "shares of each cause, suite `views` (minutes)",
     "range_noise": "estimated over true range noise by ground, from benchmarks/results.json",
     "realism": "made pictures beside photographs of their kind",

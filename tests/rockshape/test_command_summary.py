@@ -77,7 +77,8 @@ def test_no_rock_and_one_rock(capsys: pytest.CaptureFixture[str], tmp_path: Path
     [
         ("range", {"range"}),
         ("image", {"image"}),
-        ("both", {"range"}),  # range shows all that the image does in this frame
+        ("both", {"image", "range"}),  # the mesh is coarse, so that the picture comes first
+        ("network", {"image"}),
         ("published", {"range"}),
     ],
 )

@@ -1,12 +1,10 @@
 """Rocks that the image alone shows: too low or too far for range, or without any range."""
 
-from collections.abc import Iterator
-
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.numerics.arrays import Labels, Mask
-from rockshape.outline.polygon_fill import Window, inside_of
+from rockshape.numerics.arrays import Floats, Labels
+from rockshape.outline.polygon_fill import inside_of
 from rockshape.segmentation.by_image.ground_appearance import read_lightness
 from rockshape.segmentation.by_image.proposal_score import features_of, likelihood
 from rockshape.segmentation.by_image.proposal_seeds import MIN_PIXELS
@@ -25,21 +23,21 @@ def find_by_image(
     Outlines proposed are taken from the likeliest down, as far as they have room and range does not
     speak against them.
     """
-    return place_among(by_range, relief, _candidates(image, by_range))
+    x, y = _likeliest(image, by_range)  # before anything else is held in memory
+    masks = (inside_of(one, two, by_range.shape) for one, two in zip(x, y, strict=True))
+    wide = ((window, mask) for window, mask in masks if int(mask.sum()) >= MIN_PIXELS)
+    return place_among(by_range, relief, wide)
 
 
-def _candidates(image: NDArray[np.float32], taken: Labels) -> Iterator[tuple[Window, Mask]]:
-    """Yield the proposed outlines that are good enough, the likeliest first."""
+def _likeliest(image: NDArray[np.float32], taken: Labels) -> tuple[Floats, Floats]:
+    """Proposed outlines (n, points) that are good enough, the likeliest first."""
     parts = [
         (part.x, part.y, features_of(part)) for part in propose(read_lightness(image), taken=taken)
     ]
     if not parts:
-        return
+        return np.empty((0, 0)), np.empty((0, 0))
     x, y, features = (np.concatenate(each) for each in zip(*parts, strict=True))
     value = likelihood(features)
-    for number in np.argsort(-value, kind="stable"):
-        if value[number] < GOOD_ENOUGH:
-            return
-        window, mask = inside_of(x[number], y[number], taken.shape)
-        if int(mask.sum()) >= MIN_PIXELS:
-            yield window, mask
+    order = np.argsort(-value, kind="stable")
+    order = order[value[order] >= GOOD_ENOUGH]
+    return x[order], y[order]

@@ -4,12 +4,13 @@ from collections.abc import Iterator
 from itertools import product
 
 import numpy as np
+from numpy.typing import NDArray
 
-from rockshape.numerics.arrays import Labels, Mask, Singles
+from rockshape.numerics.arrays import Labels, Mask
 from rockshape.observation import Observation
 from rockshape.rock.instances import Window
 from rockshape.segmentation.by_network.instances import cut_rocks
-from rockshape.segmentation.by_network.picture import as_fractions
+from rockshape.segmentation.by_network.picture import as_fractions, levels_of
 from rockshape.segmentation.by_network.scales import joint_answer
 from rockshape.segmentation.placement import largest_first, place_among
 
@@ -24,20 +25,24 @@ def find_by_network(observation: Observation) -> Labels:
     its middle lies.
     """
     picture = picture_of(observation)
+    levels = levels_of(picture)
     rows, cols = picture.shape[:2]
     if max(rows, cols) <= WINDOW_PX + 2 * OVERLAP_PX:
-        return cut_rocks(joint_answer(picture))
+        return cut_rocks(joint_answer(as_fractions(picture, levels)))
     found = np.zeros((rows, cols), dtype=np.int32)
     for row, col in product(range(0, rows, WINDOW_PX), range(0, cols, WINDOW_PX)):
-        found = place_among(found, None, _of_window(picture, row, col))
+        found = place_among(found, None, _of_window(picture, levels, row, col))
     return found
 
 
-def _of_window(picture: Singles, row: int, col: int) -> Iterator[tuple[Window, Mask]]:
+def _of_window(
+    picture: NDArray[np.generic], levels: tuple[float, float], row: int, col: int
+) -> Iterator[tuple[Window, Mask]]:
     """Rocks whose middle is in the window that begins at a row and column, the largest first."""
     top, left = max(row - OVERLAP_PX, 0), max(col - OVERLAP_PX, 0)
     part = picture[top : row + WINDOW_PX + OVERLAP_PX, left : col + WINDOW_PX + OVERLAP_PX]
-    for (down, across), mask in largest_first(cut_rocks(joint_answer(part))):
+    found = cut_rocks(joint_answer(as_fractions(part, levels)))
+    for (down, across), mask in largest_first(found):
         window = (
             slice(down.start + top, down.stop + top),
             slice(across.start + left, across.stop + left),
@@ -47,9 +52,9 @@ def _of_window(picture: Singles, row: int, col: int) -> Iterator[tuple[Window, M
             yield window, mask
 
 
-def picture_of(observation: Observation) -> Singles:
-    """Picture (rows, cols, 3) in colour, else (rows, cols) in grey, 1 for white."""
+def picture_of(observation: Observation) -> NDArray[np.generic]:
+    """Picture (rows, cols, 3) in colour, else (rows, cols) in grey."""
     colour = observation.colour
     if colour is None or colour.ndim != 3 or colour.shape[2] < 3:
-        return as_fractions(observation.image)
-    return as_fractions(np.asarray(colour[..., :3]))
+        return observation.image
+    return np.asarray(colour[..., :3])

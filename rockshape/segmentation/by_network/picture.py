@@ -14,6 +14,7 @@ _FLATTEST = 0.015  # standard deviation of brightness below which a place counts
 _DIMMEST = 0.05  # brightness below which colour fades
 _COLOUR = 6.0
 _LIMIT = 4.0
+_LOOKED_AT = 1e6  # pixels, for a picture's levels
 
 
 def normalized(picture: Singles) -> Singles:
@@ -45,17 +46,30 @@ def _local_mean(values: Singles) -> Singles:
     return np.asarray(cv2.resize(coarse, (cols, rows), interpolation=cv2.INTER_LINEAR))
 
 
-def as_fractions(picture: NDArray[np.generic]) -> Singles:
+def as_fractions(
+    picture: NDArray[np.generic], levels: tuple[float, float] | None = None
+) -> Singles:
     """Picture of whole numbers or of any range as fractions of its bright end, float32.
 
-    Black is the 0.1 percentile or 0, whichever is lower; white the 99.9 percentile.
+    levels are those that stand for black and white, else the picture's own.
     """
+    dark, bright = levels_of(picture) if levels is None else levels
     values = np.asarray(picture, dtype=np.float32)
+    if bright <= dark:
+        return np.zeros_like(values)
+    fraction = np.clip((values - np.float32(dark)) / np.float32(bright - dark), 0.0, 1.2)
+    return np.asarray(np.nan_to_num(fraction), dtype=np.float32)
+
+
+def levels_of(picture: NDArray[np.generic]) -> tuple[float, float]:
+    """Levels of black and of white: 0 or the 0.1 percentile, whichever is lower, and the 99.9.
+
+    Of large pictures every so many rows and columns are looked at.
+    """
+    step = max(1, int(np.sqrt(picture.shape[0] * picture.shape[1] / _LOOKED_AT)))
+    values = np.asarray(picture[::step, ::step], dtype=np.float32)
     known = values[np.isfinite(values)]
     if known.size == 0:
-        return np.zeros_like(values)
+        return 0.0, 0.0
     dark, bright = (float(value) for value in np.percentile(known, [0.1, 99.9]))
-    dark = min(dark, 0.0)
-    scale = bright - dark
-    fraction = (values - dark) / scale if scale > 0.0 else np.zeros_like(values)
-    return np.asarray(np.nan_to_num(np.clip(fraction, 0.0, 1.2)), dtype=np.float32)
+    return min(dark, 0.0), bright

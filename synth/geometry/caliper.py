@@ -26,18 +26,18 @@ def caliper_half_axes_m(points_m: Floats, *, margin_m: float = 0.0) -> Floats:
     return np.asarray(_calipers_m(points_m)[1] / 2.0 + margin_m)
 
 
-def caliper_axes(points_m: Floats) -> Floats:
-    """Directions of L, I and S, rows of (3, 3), of the hull of points (n, 3).
+def caliper_axes(points_m: Floats, *, hull: ConvexHull | None = None) -> Floats:
+    """Directions of L, I and S, rows of (3, 3), of the hull of points (n, 3), made if not given.
 
     Raises:
         QhullError: the points lie in a plane.
     """
-    return _calipers_m(points_m)[0]
+    return _calipers_m(points_m, hull)[0]
 
 
-def _calipers_m(points_m: Floats) -> tuple[Floats, Floats]:
+def _calipers_m(points_m: Floats, hull: ConvexHull | None = None) -> tuple[Floats, Floats]:
     """Directions of the extents at right angles, rows of (3, 3), and their lengths (3,)."""
-    corners_m = points_m[ConvexHull(points_m).vertices]
+    corners_m = points_m[(hull or ConvexHull(points_m)).vertices]
     along = _longest_chord_m(corners_m)
     longest_m = float(np.linalg.norm(along))
     first = along / longest_m

@@ -35,16 +35,17 @@ class Box:
     centre_m: Floats  # (3,)
 
 
-def smallest_box(points_m: Floats, *, margin_m: float = 0.0) -> Box:
+def smallest_box(points_m: Floats, *, margin_m: float = 0.0, hull: ConvexHull | None = None) -> Box:
     """Box of least volume round points (n, 3), each thickened to a ball of the margin.
 
     Sides flush with a facet of the convex hull, and the principal axes, are tried first; the best
     are refined by a search over rotations, since the optimum need not be flush with any facet
     (O'Rourke 1985). Of a rough body's many facets only some are tried, so directions all over the
     sphere are tried as well. The half sides of P ⊕ B_r along u are those of P plus r, exactly.
-    Flat or fewer than four points raise scipy's QhullError.
+    The points' hull is made where it is not given. Flat or fewer than four points raise scipy's
+    QhullError.
     """
-    hull = ConvexHull(points_m)
+    hull = hull or ConvexHull(points_m)
     corners_m = points_m[hull.vertices]
     few_m = _thinned(corners_m)
     facets = np.unique(hull.equations[:, :3].round(9), axis=0)

@@ -20,6 +20,7 @@ from synth.rocks.outlines import mesh_form, plane_across
 from synth.rocks.sphere import unit_sphere
 from synth.rocks.star import Made, draw_waves, fitted, star_mesh, star_rock
 from synth.rocks.star.dents import Dented
+from synth.rocks.star.surface import even_points
 from synth.rocks.star.touches import find_touches
 from synth.scene.scene import build_scene
 from synth.scene.settling import lowest_side, lying_turn
@@ -244,7 +245,7 @@ def test_scale_does_not_depend_on_the_mesh(rocks):
 def test_touches_of_an_ellipsoid_are_its_axes_ends():
     half_axes_m = np.array([0.2, 0.15, 0.1])
     surface = fitted(BALL, half_axes_m)
-    touches = find_touches(surface)
+    touches = find_touches(surface, even_points(surface, 6))
     points_m, _ = surface.points(touches.directions)
     sides_m = np.ptp(points_m[:6] @ touches.axes.T, axis=0) / 2.0
     np.testing.assert_allclose(np.sort(sides_m)[::-1], half_axes_m, rtol=1e-3)

@@ -60,8 +60,11 @@ class Broken:
         reaches = [np.linalg.norm(points, axis=1)]
         for normal, distance, waves in zip(self.normals, self.distances, self.waves, strict=True):
             ahead = directions @ normal
-            rough = distance * (1.0 + self.height * waves.value(directions))
-            reaches.append(np.where(ahead > _AHEAD, rough / np.maximum(ahead, _AHEAD), np.inf))
+            met = ahead > _AHEAD
+            reach = np.full(len(directions), np.inf)
+            rough = distance * (1.0 + self.height * waves.value(directions[met]))
+            reach[met] = rough / ahead[met]
+            reaches.append(reach)
         table = np.stack(reaches)
         parts = table.argmin(axis=0)
         return points * (table.min(axis=0) / table[0])[:, None], parts

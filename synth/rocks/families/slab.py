@@ -9,7 +9,7 @@ from msgspec import Meta
 
 from synth.arrays import Floats, Ints
 from synth.rocks.family import Family, Make, own_options
-from synth.rocks.star import Cuts, Made, draw_waves, fitted, star_rock
+from synth.rocks.star import Cuts, Made, Waves, draw_waves, fitted, star_rock
 from synth.rocks.star.dents import DentOptions, with_dents
 from synth.spec.limits import AxisRatio, check_ranges
 from synth.spec.rocks import RocksSpec, Softness, Subdivisions
@@ -43,13 +43,23 @@ class SlabOptions(DentOptions, frozen=True, forbid_unknown_fields=True, kw_only=
 
 @dataclass(frozen=True, eq=False)
 class Layered:
-    """Union of bodies that all hold the origin."""
+    """Union of bodies that all hold the origin, their planes turned and undulating alike.
+
+    Plane i lies along w at its distance times 1 + height × waves_i(w).
+    """
 
     layers: tuple[Cuts, ...]
+    waves: tuple[Waves, ...]  # one for each plane
+    height: float
 
     def points(self, directions: Floats) -> tuple[Floats, Ints]:
         """Points (n, 3) of the surface and their layers (n,)."""
-        reaches = np.stack([layer.radii(directions) for layer in self.layers])
+        swell = np.ones((len(directions), len(self.waves)))
+        ahead = directions @ self.layers[0].normals.T > 0.0
+        for plane, waves in enumerate(self.waves):
+            met = ahead[:, plane]
+            swell[met, plane] += self.height * waves.value(directions[met])
+        reaches = np.stack([layer.radii(directions, swell) for layer in self.layers])
         return directions * reaches.max(axis=0)[:, None], reaches.argmax(axis=0)
 
 
@@ -69,10 +79,10 @@ def make_slab(half_axes_m: Floats, options: SlabOptions, rng: np.random.Generato
     layers = []
     for top in np.linspace(_LOWEST, 1.0, count + 1)[1:]:
         distances = np.concatenate([reach, [top, 1.0]])
-        layers.append(Cuts(normals, distances, steep=1.0 / softness, waves=waves, height=height))
+        layers.append(Cuts(normals, distances, steep=1.0 / softness))
         back = rng.uniform(*_BACK, size=sides)
         reach = reach - np.where(rng.uniform(size=sides) > _FLUSH, back, _NEARLY)
-    dented, hollows = with_dents(Layered(tuple(layers)), options, rng)
+    dented, hollows = with_dents(Layered(tuple(layers), waves, height), options, rng)
     knobs = {
         "softness": softness,
         "waviness": height,

@@ -1,4 +1,4 @@
-"""Soft intersections of half-spaces, with faces that may undulate."""
+"""Soft intersections of half-spaces, whose faces may undulate."""
 
 from dataclasses import dataclass
 
@@ -6,7 +6,6 @@ import numpy as np
 
 from synth.arrays import Floats, Ints
 from synth.rocks.polyhedron import tangent_cuts
-from synth.rocks.star.waves import Waves
 
 _BEHIND = 1e-9  # of the nearness of a plane that a ray never meets
 
@@ -17,20 +16,17 @@ class Cuts:
 
     Along a direction w the radius is (Σ_i (n_i·w/h_i(w))₊^p)^(-1/p): the gauge is a p-norm of
     linear functions, so the body is convex where its planes are flat, and an edge's radius is
-    about 1/p. A plane's distance undulates by itself: h_i(w) = h_i (1 + height × waves_i(w)).
+    about 1/p.
     """
 
     normals: Floats  # (k, 3)
     distances: Floats  # (k,)
     steep: float  # p
-    waves: tuple[Waves, ...] = ()  # one for each plane, or none
-    height: float = 0.0
 
-    def radii(self, directions: Floats) -> Floats:
-        """Radii (n,) along directions (n, 3)."""
+    def radii(self, directions: Floats, swell: Floats | float = 1.0) -> Floats:
+        """Radii (n,) along directions (n, 3), the planes' distances times a swell (n, k)."""
         nearness = np.maximum(directions @ (self.normals / self.distances[:, None]).T, _BEHIND)
-        for plane, waves in enumerate(self.waves):
-            nearness[:, plane] /= 1.0 + self.height * waves.value(directions)
+        nearness /= swell
         nearest = nearness.max(axis=1, keepdims=True)
         total = ((nearness / nearest) ** self.steep).sum(axis=1)
         return np.asarray(total ** (-1.0 / self.steep) / nearest[:, 0])

@@ -12,8 +12,8 @@ from synth.geometry.min_volume_box import box_along
 from synth.rocks.record import RockModel
 from synth.rocks.relief import turned_to_box
 from synth.rocks.sphere import unit_sphere
-from synth.rocks.star.surface import StarSurface, star_mesh
-from synth.rocks.star.touches import find_touches
+from synth.rocks.star.surface import StarSurface, even_points, star_mesh
+from synth.rocks.star.touches import SUBDIVISIONS, find_touches
 
 _FITTED_ON = 4  # subdivisions of the sphere on which extents are taken
 
@@ -53,8 +53,9 @@ def star_rock(family: str, made: Made, *, longest_m: float, subdivisions: int) -
     of any fineness have the same. Area is given where the surface is smooth; edges and corners have
     no one radius.
     """
-    touches = find_touches(made.surface)
-    mesh = star_mesh(made.surface, subdivisions, through=touches.directions)
+    known = even_points(made.surface, SUBDIVISIONS)
+    touches = find_touches(made.surface, known)
+    mesh = star_mesh(made.surface, subdivisions, through=touches.directions, known=known)
     turned, axes = turned_to_box(
         family,
         mesh,

@@ -1,5 +1,6 @@
 """Star-shaped surface of several parts, meshed so that facets' edges run along the creases."""
 
+from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
@@ -24,17 +25,43 @@ class StarSurface(Protocol):
         """
 
 
-def star_mesh(surface: StarSurface, subdivisions: int, *, through: Floats = _NONE) -> Mesh:
+@dataclass(frozen=True, eq=False)
+class EvenPoints:
+    """Points of a surface along the directions of an even mesh of the sphere."""
+
+    subdivisions: int
+    points: Floats  # (n, 3)
+    parts: Ints  # (n,)
+
+
+def even_points(surface: StarSurface, subdivisions: int) -> EvenPoints:
+    """Points of a surface along the directions of `unit_sphere(subdivisions)`."""
+    return EvenPoints(subdivisions, *surface.points(unit_sphere(subdivisions)[0]))
+
+
+def star_mesh(
+    surface: StarSurface,
+    subdivisions: int,
+    *,
+    through: Floats = _NONE,
+    known: EvenPoints | None = None,
+) -> Mesh:
     """Mesh of 20 × 4^subdivisions facets, its vertices on the surface, some on its creases.
 
-    The vertices nearest to the directions (k, 3) that it goes `through` are moved there.
+    The vertices nearest to the directions (k, 3) that it goes `through` are moved there. Points of
+    the surface that are known are not computed again where they are as fine as the mesh.
     """
-    directions, faces = unit_sphere(subdivisions)
-    _, parts = surface.points(directions)
+    if known is None or known.subdivisions != subdivisions:
+        known = even_points(surface, subdivisions)
+    even, faces = unit_sphere(subdivisions)
+    directions, parts = even, known.parts
     if (parts != parts[0]).any():
         directions = _creased(surface, directions, faces, parts)
-    vertices, _ = surface.points(_through(directions, faces, through))
-    faces = faces.copy()
+    directions = _through(directions, faces, through)
+    moved = (directions != even).any(axis=1)
+    vertices, faces = known.points.copy(), faces.copy()
+    if moved.any():
+        vertices[moved], _ = surface.points(directions[moved])
     return Mesh(vertices_m=vertices, faces=faces, normals=vertex_normals(vertices, faces))
 
 

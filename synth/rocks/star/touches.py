@@ -6,15 +6,16 @@ They are found on the surface itself, so that they do not depend on the mesh tha
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial import ConvexHull
 
 from synth.arrays import Floats
 from synth.geometry.caliper import caliper_axes
 from synth.geometry.min_volume_box import smallest_box
 from synth.geometry.vectors import perpendicular
 from synth.rocks.sphere import unit_sphere
-from synth.rocks.star.surface import StarSurface
+from synth.rocks.star.surface import EvenPoints, StarSurface
 
-_SUBDIVISIONS = 6  # of the sphere whose directions the search starts from
+SUBDIVISIONS = 6  # of the sphere whose directions the search starts from
 _EDGE_RAD = 0.02  # from one of them to the next
 _GRID = np.linspace(-1.0, 1.0, 9)
 _ZOOM, _ZOOMS = 3.0, 7  # 1e-5 rad at the end
@@ -32,17 +33,16 @@ class Touches:
     directions: Floats  # (12, 3), from the middle of the surface
 
 
-def find_touches(surface: StarSurface) -> Touches:
+def find_touches(surface: StarSurface, even: EvenPoints) -> Touches:
     """Touches of a surface's smallest box and of its longest extents at right angles.
 
     The box's axes are those of the smallest box of the surface's points along the directions of an
-    even mesh; the points that touch it are then sought between those directions.
+    even mesh, which are known; the points that touch it are then sought between those directions.
     """
-    directions, _ = unit_sphere(_SUBDIVISIONS)
-    points, _ = surface.points(directions)
-    search = _Search(surface, directions, points)
-    axes = smallest_box(points).axes
-    return Touches(axes, np.concatenate([search.ends(axes), search.calipers()]))
+    search = _Search(surface, unit_sphere(even.subdivisions)[0], even.points)
+    hull = ConvexHull(even.points)
+    axes = smallest_box(even.points, hull=hull).axes
+    return Touches(axes, np.concatenate([search.ends(axes), search.calipers(hull)]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,9 +66,9 @@ class _Search:
             reach /= _ZOOM
         return np.asarray(found)
 
-    def calipers(self) -> Floats:
+    def calipers(self, hull: ConvexHull) -> Floats:
         """Directions (6, 3) of the ends of L, I and S."""
-        first, second, _ = caliper_axes(self.points)
+        first, second, _ = caliper_axes(self.points, hull=hull)
         first = self._turned(first, np.zeros((3, 3)))
         second = self._turned(second, np.outer(first, first))
         return self.ends(np.stack([first, second, np.cross(first, second)]))

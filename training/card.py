@@ -21,7 +21,12 @@ from rockshape.segmentation.by_network.weights import NETWORK, read_weights
 from synth.dataset.workers import worker_pool
 from training.mixture import JUDGED, PARTS, Shard
 from training.tile import SIDE_PX, Tile
-from validation.records.object_matching import Rule, equivalent_diameter, judge
+from validation.records.object_matching import (
+    Rule,
+    equivalent_diameter,
+    judge,
+    whole_and_wide,
+)
 from validation.scores.object_scores import count, f1, precision, recall
 
 CARD = Path(__file__).parent / "card.json"
@@ -94,17 +99,7 @@ def _judged(tile: Tile) -> pd.DataFrame:
     """Rows of the rocks of a tile that count: whole ones of 12 px and more."""
     truth = tile.labels.astype(np.int32)
     found = cut_rocks(joint_answer(as_fractions(tile.image)))
-    return judge(truth, _counts(truth), found, {}, _RULE)
-
-
-def _counts(truth: np.ndarray[Any, np.dtype[np.int32]]) -> np.ndarray[Any, np.dtype[np.bool_]]:
-    """Which labels count: not cut by the frame, as wide as a disc of 12 px at least."""
-    area = np.bincount(truth.ravel())
-    counts = 2.0 * np.sqrt(area / np.pi) >= _RULE.min_width_px
-    for border in (truth[0], truth[-1], truth[:, 0], truth[:, -1]):
-        counts[border] = False
-    counts[0] = False
-    return counts
+    return judge(truth, whole_and_wide(truth, _RULE.min_width_px), found, {}, _RULE)
 
 
 def with_table(page: str, card: dict[str, Any]) -> str:

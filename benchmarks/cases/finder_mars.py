@@ -12,7 +12,12 @@ from case import Case, Column, Table
 import rockshape
 from rockshape.observation import Observation, locate_camera
 from rockshape.segmentation.finders import find_finder
-from validation.records.object_matching import Rule, equivalent_diameter, judge
+from validation.records.object_matching import (
+    Rule,
+    equivalent_diameter,
+    judge,
+    whole_and_wide,
+)
 from validation.scores.object_scores import count, f1, precision, recall
 
 MARS = Path(__file__).parents[2] / "examples" / "mars"
@@ -59,13 +64,10 @@ def _frames(
         truth = np.zeros(alone.image.shape, dtype=np.int32)
         for number, rock in enumerate(marked, start=1):
             truth[rock.window][rock.mask] = number
-        counts = np.ones(len(marked) + 2, dtype=bool)
-        for border in (truth[0], truth[-1], truth[:, 0], truth[:, -1]):
-            counts[border] = False
-        area = np.bincount(truth.ravel(), minlength=len(counts))
-        counts &= 2.0 * np.sqrt(area / np.pi) >= RULE.min_width_px
+        counts = np.zeros(len(marked) + 2, dtype=bool)
+        whole = whole_and_wide(truth, RULE.min_width_px)
+        counts[: len(whole)] = whole
         truth[_not_judged(outlines, f"{frame}.png", truth.shape) & (truth == 0)] = len(marked) + 1
-        counts[[0, -1]] = False
         yield frame, seen, alone, truth, counts
 
 

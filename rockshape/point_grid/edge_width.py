@@ -1,6 +1,7 @@
 """Edge width of range: over how many pixels the steepest changes of depth are spread."""
 
 import numpy as np
+from scipy.ndimage import maximum_filter1d
 
 from rockshape.numerics.arrays import Floats
 
@@ -37,7 +38,8 @@ def _places(inverse: Floats) -> tuple[Floats, Floats]:
     step = np.abs(np.diff(inverse, axis=1))
     change = np.abs(inverse[:, span:] - inverse[:, :-span])
     middle = step[:, REACH_PX : REACH_PX + change.shape[1]]
-    greatest = np.lib.stride_tricks.sliding_window_view(step, span, axis=1).max(axis=-1)
+    known = np.where(np.isnan(step), np.inf, step)  # no place has a gap within its reach
+    greatest = maximum_filter1d(known, span, axis=1)[:, REACH_PX : REACH_PX + change.shape[1]]
     place = (middle >= greatest) & (middle > 0.0)
     level = inverse[:, REACH_PX : REACH_PX + change.shape[1]]
     return change[place] / level[place], change[place] / middle[place]

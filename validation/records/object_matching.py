@@ -46,6 +46,15 @@ def equivalent_diameter(mask: NDArray[np.bool_]) -> float:
     return float(2 * np.sqrt(np.count_nonzero(mask) / np.pi))
 
 
+def whole_and_wide(labels: Labels, least_px: float) -> NDArray[np.bool_]:
+    """Which labels (n + 1,) the frame does not cut and are as wide as a disk of a diameter."""
+    counts = 2 * np.sqrt(np.bincount(labels.ravel()) / np.pi) >= least_px
+    for border in (labels[0], labels[-1], labels[:, 0], labels[:, -1]):
+        counts[border] = False
+    counts[0] = False
+    return np.asarray(counts)
+
+
 @dataclass(frozen=True)
 class Rule:
     """Which rocks count."""

@@ -4,7 +4,6 @@ from dataclasses import asdict
 
 import numpy as np
 import pandas as pd
-import scipy.ndimage as ndi
 from numpy.typing import NDArray
 
 from rockshape import Instances, Observation, Segmentation
@@ -18,7 +17,12 @@ from validation.kinds.photographs.series import known_finders
 from validation.kinds.photographs.sources.masked_picture import MaskedPicture
 from validation.kinds.photographs.spec import PhotographsExperiment
 from validation.records.join import RecordKey
-from validation.records.object_matching import Rule, equivalent_diameter, judge
+from validation.records.object_matching import (
+    Rule,
+    equivalent_diameter,
+    judge,
+    whole_and_wide,
+)
 from validation.records.pictures import Picture, compress
 
 
@@ -72,20 +76,12 @@ def _counts(
     labels: Labels, picture: MaskedPicture, experiment: PhotographsExperiment
 ) -> NDArray[np.bool_]:
     """Which labels are judged, large enough, wholly in the frame and visible enough, (n + 1,)."""
-    visible, judged = picture.visible_fraction, picture.truth.judged
-    counts = np.zeros(int(labels.max(initial=0)) + 1, dtype=bool)
-    for number, window in enumerate(ndi.find_objects(labels), start=1):
-        if window is None:
-            continue
-        whole = all(
-            side.start > 0 and side.stop < size
-            for side, size in zip(window, labels.shape, strict=True)
-        )
-        mask = labels[window] == number
-        width = equivalent_diameter(mask)
-        whole = whole and bool(judged[window][mask].all())
-        shown = visible is None or visible[number] >= experiment.min_visible_fraction
-        counts[number] = whole and shown and width >= experiment.min_width_px
+    counts = whole_and_wide(labels, experiment.min_width_px)
+    counts[np.unique(labels[~picture.truth.judged])] = False
+    if picture.visible_fraction is not None:
+        for number in np.flatnonzero(counts):
+            shown = picture.visible_fraction[number] >= experiment.min_visible_fraction
+            counts[number] = bool(shown)
     return counts
 
 

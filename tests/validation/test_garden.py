@@ -6,10 +6,11 @@ import pytest
 from scipy import stats
 
 from validation.errors import InputError
-from validation.kinds.garden.judge import COUPLES, column_of, correlations, rho_key
+from validation.kinds.garden.judge import COUPLES, correlations, rho_key
 from validation.kinds.garden.spec import GardenExperiment
 from validation.paper import GARDEN_COLUMNS, garden_rank_move, garden_table
 from validation.scores.scoring import score_records
+from validation.scores.titles import column_of
 from validation.suite.suite import as_suite, load_suite
 
 ROUNDING = 1e-12

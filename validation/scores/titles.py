@@ -1,6 +1,6 @@
 """Names of measures for reading, from the registry of the measures themselves."""
 
-from rockshape.method import measure_of, methods
+from rockshape.method import find_method, measure_of, methods
 from validation.scores.expectations import Claim
 
 REFERENCE = "paper"  # the method whose name scores and titles leave out
@@ -24,3 +24,9 @@ def unit_of(column: str) -> str:
     """Unit of a measure's column, empty for a pure number."""
     measure = measure_of(column)
     return "" if measure is None else measure.unit
+
+
+def column_of(method: str, paper_column: str) -> str:
+    """Method's column of the measure that the paper's method calls so."""
+    titles = {measure.column: measure.title for measure in find_method(REFERENCE).measures}
+    return next(m.column for m in find_method(method).measures if m.title == titles[paper_column])

@@ -7,7 +7,6 @@ import numpy as np
 import pandas as pd
 from scipy import stats
 
-from rockshape.method import find_method
 from validation.arrays import Floats
 from validation.kinds.garden.spec import GardenExperiment
 from validation.kinds.multiview import judge as multiview
@@ -15,7 +14,7 @@ from validation.kinds.multiview.judge import FEEDS, claims, ranked_claims, view_
 from validation.kinds.multiview.judge.detection import rock_numbers
 from validation.peers import MeasureSpec
 from validation.scores.score import Definition, Estimate, Key
-from validation.scores.titles import REFERENCE
+from validation.scores.titles import column_of
 from validation.statistics.interval import of_sample
 from validation.statistics.weighted import ratio
 
@@ -35,12 +34,6 @@ COUPLES = (
     Couple("ellipsoid_error_m2", "angularity_3d_per_m"),
     Couple("angularity_2d_deg", "angularity_3d_per_m"),
 )
-
-
-def column_of(method: str, paper_column: str) -> str:
-    """Method's column of the measure that the paper's method calls so."""
-    titles = {measure.column: measure.title for measure in find_method(REFERENCE).measures}
-    return next(m.column for m in find_method(method).measures if m.title == titles[paper_column])
 
 
 def rho_key(experiment: str, method: str, couple: Couple) -> Key:

@@ -3,11 +3,11 @@
 from dataclasses import dataclass
 
 from validation.execution.run import Run
-from validation.kinds.garden.judge import COUPLES, column_of, rho_key
+from validation.kinds.garden.judge import COUPLES, rho_key
 from validation.kinds.garden.spec import GardenExperiment
 from validation.paper import GARDEN_COLUMNS, garden_correlation, garden_rank_move
 from validation.scores.score import Key, Score
-from validation.scores.titles import title_of
+from validation.scores.titles import column_of, title_of
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,27 @@
+"""Frames experiment: real frames with range, and rocks outlined by hand that the paper names."""
+
+from typing import Annotated, Any, Literal
+
+from msgspec import Meta
+
+from validation.suite.experiment import MeasuredExperiment
+
+FrameName = Literal["i925510", "i924795"]
+
+
+class FramesExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="frames"):
+    """Frames of the paper's figures 11 and 12; unit i is frame i.
+
+    The truth is the paper's word: the order that it gives its named rocks by each measure.
+    """
+
+    frames: Annotated[tuple[FrameName, ...], Meta(min_length=1)] = ("i925510", "i924795")
+
+    @property
+    def units(self) -> tuple[tuple[str, int], ...]:
+        """Each frame."""
+        return tuple(("", number) for number in range(len(self.frames)))
+
+    def dependencies(self, series: str, scene: int) -> dict[str, Any]:  # noqa: ARG002
+        """What a unit depends on; the files are part of the package."""
+        return self.plain(without=("title", "frames")) | {"frame": self.frames[scene]}

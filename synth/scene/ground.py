@@ -60,6 +60,9 @@ class SceneGround(Protocol):
     def normal(self) -> Floats:
         """Unit normal of the mean slope, (3,)."""
 
+    def behind(self, meshes: Sequence[Mesh], *, rng: np.random.Generator) -> "SceneGround":
+        """Ground with what the wind leaves behind rocks with these meshes; itself: nothing."""
+
     def meshes(self) -> tuple[Mesh, ...]:
         """Surface first, then pebbles if there are any."""
 
@@ -86,5 +89,5 @@ def make_ground(spec: GroundSpec, *, radius_m: float, rng: np.random.Generator) 
         soil=skin,
         pebble=PebbleSkin(spec.terrain.pebble),
         stones=pebbles(spec, grid.heights_m, radius_m=radius_m, rng=loose, beyond=True),
-        haze_m=spec.terrain.haze_m,
+        spec=spec.terrain,
     )

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -106,15 +106,24 @@ def lay(
         above_m = burial * -tall_m - low_m
     position_m = np.array([place_m[0], place_m[1], above_m])
     mesh = rock.mesh.moved(turn, position_m)
-    clearances_m = mesh.vertices_m[:, 2] - ground.heights_m(mesh.vertices_m[:, :2])
     return PlacedRock(
         rock=rock,
         model_to_world=turn,
         position_m=position_m,
         albedo=min(1.0, albedo * finish.brightness),
         mesh=mesh,
-        buried_fraction=buried_fraction(
-            mesh, np.where(clearances_m > -1e-9, np.maximum(clearances_m, 0.0), clearances_m)
-        ),
+        buried_fraction=_buried_fraction(mesh, ground),
         finish=finish,
+    )
+
+
+def sunk(placed: PlacedRock, ground: SceneGround) -> PlacedRock:
+    """Rock where it lies, on another ground."""
+    return replace(placed, buried_fraction=_buried_fraction(placed.mesh, ground))
+
+
+def _buried_fraction(mesh: Mesh, ground: SceneGround) -> float:
+    clearances_m = mesh.vertices_m[:, 2] - ground.heights_m(mesh.vertices_m[:, :2])
+    return buried_fraction(
+        mesh, np.where(clearances_m > -1e-9, np.maximum(clearances_m, 0.0), clearances_m)
     )

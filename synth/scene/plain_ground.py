@@ -87,6 +87,10 @@ class Terrain:
         normal = np.array([-self.gradient[0], -self.gradient[1], 1.0])
         return np.asarray(normal / np.linalg.norm(normal))
 
+    def behind(self, meshes: Sequence[Mesh], *, rng: np.random.Generator) -> "Terrain":  # noqa: ARG002
+        """Ground with what the wind leaves behind rocks: no wind blows here."""
+        return self
+
     def meshes(self) -> tuple[Mesh, ...]:
         """Surface, two triangles if it is a plane, and the pebbles."""
         lines_m = self._grid_lines_m()

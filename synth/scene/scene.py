@@ -16,7 +16,7 @@ from synth.rocks.family import Make
 from synth.rocks.sampling import made, planned
 from synth.scene.finish import draw_finishes, draw_wetness
 from synth.scene.ground import SceneGround, make_ground
-from synth.scene.laying import PlacedRock, lay, stood
+from synth.scene.laying import PlacedRock, lay, stood, sunk
 from synth.scene.placement import (
     PlacementArea,
     frustum,
@@ -32,7 +32,7 @@ from synth.things.record import PlacedThing
 
 # Children of the scene's seed.
 _LYING, _GROUND, _POPULATION, _SHARED = 1, 2, 3, 12
-_FINISH, _WETNESS, _THINGS = 31, 33, 34
+_FINISH, _WETNESS, _THINGS, _WIND = 31, 33, 34, 35
 _ROOM_M = 0.4  # kept free of a population's rocks round the foot of each station
 _CROWD, _SAMPLE = 24, 12  # more rocks than the first are tried with the second before all are made
 
@@ -90,6 +90,9 @@ def build_scene(spec: SceneSpec, index: int, *, pool: Executor | None = None) ->
             standing, places_m, burials, albedos, finishes, strict=True
         )
     )
+    drifted = ground.behind([one.mesh for one in placed], rng=_child(spec, index, _WIND))
+    if drifted is not ground:
+        ground, placed = drifted, tuple(sunk(one, drifted) for one in placed)
     wanted = ThingsSpec(kinds=()) if isinstance(spec.things, msgspec.UnsetType) else spec.things
     return SceneModel(
         rocks=placed,

@@ -4,10 +4,11 @@ from typing import Annotated, Literal
 
 from msgspec import Meta, Struct
 
-from synth.spec.limits import Fraction, Positive, Ratio
+from synth.spec.limits import Degrees, Fraction, Positive, Ratio, check_range
 
 Colour = tuple[Ratio, Ratio, Ratio]
 Height = Annotated[float, Meta(ge=0, le=2)]
+Widths = Annotated[float, Meta(ge=0, le=10)]
 
 
 class TerrainSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -27,6 +28,8 @@ class TerrainSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True)
     drift_ripple_m: Annotated[float, Meta(ge=0, le=0.05)] = (
         0.003  # ripples on them, trough to crest
     )
+    tail_length: tuple[Widths, Widths] = (0.0, 0.0)  # of the drifts behind rocks, in rock widths
+    wind_deg: Degrees = 0.0  # where the wind that drifts them blows to, from x towards y
     grit_m: Annotated[float, Meta(ge=0, le=0.05)] = (
         0.0  # largest grit, in the light and not in the depth
     )
@@ -40,3 +43,7 @@ class TerrainSpec(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True)
     dust: Colour = (0.55, 0.55, 0.55)  # of drifts, and on the tops of pebbles
     bedrock: Colour = (0.5, 0.5, 0.5)
     pebble: Colour = (0.5, 0.5, 0.5)
+
+    def __post_init__(self) -> None:
+        """Require a range in rising order."""
+        check_range("tail_length", self.tail_length)

@@ -30,6 +30,10 @@ class HeightGrid:
         above = one + v * (four - one) + u * (three - four)
         return np.asarray(np.where(u >= v, below, above))
 
+    def raised(self, other: "HeightGrid") -> "HeightGrid":
+        """Grid with the heights of another over the same lines added."""
+        return HeightGrid(self.lines_m, self.height_m + other.height_m)
+
     def mesh(self) -> Mesh:
         """Surface as triangles, with the normals of the heights' central differences."""
         x_m, y_m = np.meshgrid(self.lines_m, self.lines_m)

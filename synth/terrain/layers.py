@@ -15,7 +15,7 @@ _SOFT = 4  # smooth maps are made on so many times fewer samples
 _EDGE = 0.18  # share of a layer's thickness over which its edge falls
 _JOINT = 0.04  # width of joints and cracks over the distance between them
 _RIPPLES = 0.09  # length of the ripples on drifts, m
-_FEATHER_M = 0.015  # thickness of a drift that hides what is below
+FEATHER_M = 0.015  # thickness of a drift that hides what is below
 _SMOOTH_SLOPE = 4.0  # of the swell of drifts
 _BEDS_SLOPE = 3.4  # of the surface that the outcrop's layers are cut from
 
@@ -60,7 +60,7 @@ def make_layers(spec: TerrainSpec, rng: np.random.Generator) -> Layers:
         sand = np.float32(spec.drift_height_m) * _soft(_SMOOTH_SLOPE, swell)
         sand += _ripples(spec.drift_ripple_m, cell_m, sand / spec.drift_height_m)
         sand += _level(height - sand, spec.drift)
-        drift = _above(sand - height, _FEATHER_M)
+        drift = _above(sand - height, FEATHER_M)
         height, crack = np.maximum(height, sand), crack * (1.0 - drift)
         bedrock = bedrock * (1.0 - drift)
     return Layers(cell_m, height, drift, bedrock, crack)

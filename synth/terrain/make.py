@@ -1,7 +1,7 @@
 """Rough ground put together: its heights as one grid, and the skins of its surfaces."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from synth.terrain.grid import HeightGrid, Spacing
 from synth.terrain.hills import END_M, Hills, make_hills
 from synth.terrain.layers import Layers, make_layers
 from synth.terrain.skin import PebbleSkin, Skin, SoilSkin, soil_skin
+from synth.terrain.tails import draw_tails
 
 _CELLS = 320  # from the middle to the end of the even part
 _LEAST_CELL_M = 0.004
@@ -30,7 +31,12 @@ class RoughGround:
     soil: SoilSkin
     pebble: PebbleSkin
     stones: Mesh | None
-    haze_m: float | None
+    spec: TerrainSpec
+
+    @property
+    def haze_m(self) -> float | None:
+        """Distance that veils 63 %."""
+        return self.spec.haze_m
 
     @property
     def even(self) -> bool:
@@ -86,6 +92,13 @@ class RoughGround:
         """Unit normal of the mean slope, (3,)."""
         normal = np.array([-self.gradient[0], -self.gradient[1], 1.0])
         return np.asarray(normal / np.linalg.norm(normal))
+
+    def behind(self, meshes: Sequence[Mesh], *, rng: np.random.Generator) -> "RoughGround":
+        """Ground with the drifts in the lee of rocks, from which pebbles stick out."""
+        tails = draw_tails(self.spec, meshes, self.grid, rng)
+        if tails is None:
+            return self
+        return replace(self, grid=self.grid.raised(tails), soil=replace(self.soil, tails=tails))
 
     def meshes(self) -> tuple[Mesh, ...]:
         """Surface and pebbles."""

@@ -9,8 +9,8 @@ import numpy as np
 from synth.arrays import Singles
 from synth.noise import MipMap, fractal, slopes, stones
 from synth.spec.terrain import Colour, TerrainSpec
-from synth.terrain.grid import Spacing
-from synth.terrain.layers import Layers
+from synth.terrain.grid import HeightGrid, Spacing
+from synth.terrain.layers import FEATHER_M, Layers
 
 _GRIT_SIDE, _GRIT_SEED = 1024, 20090103
 _GRIT_LARGEST = 32  # samples between the largest stones of the grit
@@ -44,6 +44,7 @@ class SoilSkin:
     dust: Colour
     bedrock: Colour
     grit_m: float
+    tails: HeightGrid | None = None  # thickness of the sand behind rocks
 
     def reflectance(self, points_m: Singles, footprint_m: Singles) -> Singles:
         """See `Skin.paint`."""
@@ -60,6 +61,8 @@ class SoilSkin:
     def normals(self, points_m: Singles, normals: Singles, footprint_m: Singles) -> Singles:
         """See `Skin.relief`."""
         slopes = self._finer(points_m, footprint_m)
+        if self.tails is not None:
+            slopes *= (1.0 - self._sanded(points_m, self.tails))[:, None]
         if self.grit_m > 0.0:
             drift, bedrock, _ = self._covers(points_m, footprint_m)
             grit = self._grit(points_m, footprint_m)[:2].T
@@ -79,7 +82,17 @@ class SoilSkin:
     def _covers(self, points_m: Singles, footprint_m: Singles) -> Singles:
         """Shares of drift, bedrock and cracks, (3, n)."""
         x, y = points_m[:, 0] / self.cell_m, points_m[:, 1] / self.cell_m
-        return self.covers.at(x, y, footprint_m / self.cell_m).T
+        covers = self.covers.at(x, y, footprint_m / self.cell_m).T
+        if self.tails is None:
+            return covers
+        sand = self._sanded(points_m, self.tails)
+        drift, bedrock, crack = covers
+        return np.stack([np.maximum(drift, sand), bedrock * (1.0 - sand), crack * (1.0 - sand)])
+
+    def _sanded(self, points_m: Singles, tails: HeightGrid) -> Singles:
+        """Cover by the sand behind rocks, (n,)."""
+        thickness_m = tails.heights_m(points_m[:, :2].astype(np.float64))
+        return np.asarray((thickness_m / FEATHER_M).clip(0.0, 1.0), dtype=np.float32)
 
     def _grit(self, points_m: Singles, footprint_m: Singles) -> Singles:
         """Slopes of the grit along x and y, and its tint, (3, n)."""

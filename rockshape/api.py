@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 from rockshape.camera.camera import CameraLike
 from rockshape.errors import InputError
 from rockshape.inputs.arrays import observe
+from rockshape.inputs.scale import with_scale
 from rockshape.measurement import Measurement
 from rockshape.method import Method
 from rockshape.numerics.array_argument import array_argument
@@ -14,6 +15,7 @@ from rockshape.observation import Observation
 from rockshape.pipeline import measure as measure_observation
 from rockshape.rock.given_labels import instances_of
 from rockshape.rock.instances import Instances
+from rockshape.rock.level_ground import LevelGround
 from rockshape.rock.pieces import Pieces
 from rockshape.segmentation.finders import Finder
 
@@ -31,6 +33,9 @@ def measure(
     method: str | Method = "robust",
     find: str | Finder | None = None,
     descriptors: bool = False,
+    sizes: bool = False,
+    scale: str | None = None,
+    level_ground: LevelGround | None = None,
 ) -> Measurement:
     """Find the rocks in one image and measure each.
 
@@ -55,6 +60,12 @@ def measure(
     - find: how rocks are found: `range`, `image`, `both` or `published`, or a Finder; else as the
       method does.
     - descriptors: whether each rock gets the descriptors of its outline too.
+    - sizes: whether each gets its axes, Feret diameters and area, in px and, by range or a scale,
+      in mm.
+    - scale: side of a pixel on what is seen, `0.39mm`, or two ends of a scale bar,
+      `40,52:540,52=100mm`; then sizes are told.
+    - level_ground: height and tilt of the camera above level ground; then sizes are told. It needs
+      a camera.
 
     Nothing that is given is changed. Without range, measures that need it are NaN with a reason.
     Raises: InputError where arrays do not fit each other, and where rocks are to be found by range
@@ -74,8 +85,14 @@ def measure(
             camera=camera,
             labels=given,
         )
+    observation = with_scale(observation, scale=scale, level_ground=level_ground)
     if ignore is not None:
         observation = replace(observation, ignored=array_argument("ignore", ignore) != 0)
     return measure_observation(
-        observation, method=method, find=find, labels=given, descriptors=descriptors
+        observation,
+        method=method,
+        find=find,
+        labels=given,
+        descriptors=descriptors,
+        sizes=sizes or scale is not None or level_ground is not None,
     )

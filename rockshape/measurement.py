@@ -18,6 +18,8 @@ from rockshape.observation import Observation
 from rockshape.outline.descriptors import Descriptors
 from rockshape.rock.instances import Instances
 from rockshape.rock.point_fit import PointCounts
+from rockshape.rock.sizes import BOX, Sizes
+from rockshape.rock.sizes import COLUMNS as SIZES
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -65,6 +67,7 @@ class Rock:
     ellipsoid: Ellipsoid | None
     readings: dict[str, Reading]  # by the measures' columns
     descriptors: Descriptors | None = None  # if they were asked for
+    sizes: Sizes | None = None  # likewise
 
     @property
     def values(self) -> dict[str, float]:
@@ -106,6 +109,7 @@ class Measurement:
     rocks: tuple[Rock, ...]  # in the order of their numbers
     found: "tuple[FoundRock, ...]" = ()  # how each was found, likewise; empty with given labels
     described: bool = False  # whether the rocks have descriptors
+    sized: bool = False  # whether they have sizes
 
     @cached_property
     def labels(self) -> NDArray[np.int32]:
@@ -166,16 +170,21 @@ class Measurement:
 
 
 def columns(
-    method: str | Method, *, descriptors: bool = False, flags: bool = False
+    method: str | Method, *, descriptors: bool = False, flags: bool = False, sizes: bool = False
 ) -> tuple[str, ...]:
     """The table's columns for a method, in order, and after them those that are asked for."""
-    return _columns(find_method(method).measures, descriptors=descriptors, flags=flags)
+    measures = find_method(method).measures
+    return _columns(measures, descriptors=descriptors, flags=flags, sizes=sizes)
 
 
-def _columns(measures: tuple[Measure, ...], *, descriptors: bool, flags: bool) -> tuple[str, ...]:
+def _columns(
+    measures: tuple[Measure, ...], *, descriptors: bool, flags: bool, sizes: bool
+) -> tuple[str, ...]:
     measured = tuple(measure.column for measure in measures)
+    sized = SIZES if sizes else ()
     described = tuple(DESCRIPTORS.values()) if descriptors else ()
-    return (*PLACE, *POINTS, *AXES, *measured, "reason", *described, *(FLAGS if flags else ()))
+    asked = dict.fromkeys((*sized, *described, *(FLAGS if flags else ())))
+    return (*PLACE, *POINTS, *AXES, *measured, "reason", *asked)
 
 
 def to_frame(measurement: Measurement, *, flags: bool = False) -> "pd.DataFrame":
@@ -188,46 +197,46 @@ def to_frame(measurement: Measurement, *, flags: bool = False) -> "pd.DataFrame"
     """
     import pandas as pd  # noqa: PLC0415 - it takes as long as all else
 
-    names = _columns(measurement.measures, descriptors=measurement.described, flags=flags)
+    names = _columns(
+        measurement.measures,
+        descriptors=measurement.described,
+        flags=flags,
+        sizes=measurement.sized,
+    )
     told = {one.number: one for one in measurement.found}
-    rows = [
-        (*_row(rock), *(_found(told.get(rock.number)) if flags else ()))
-        for rock in measurement.rocks
-    ]
-    told_of = zip(*rows, strict=True) if rows else [()] * len(names)
+    rows = [_row(rock, _found(told.get(rock.number))) for rock in measurement.rocks]
     kinds = _types(names)  # one by one: casting a whole frame takes ten times as long
     return pd.DataFrame(
-        {
-            name: pd.Series(list(column), dtype=kinds[name])
-            for name, column in zip(names, told_of, strict=True)
-        }
+        {name: pd.Series([row[name] for row in rows], dtype=kinds[name]) for name in names}
     )
 
 
-def _found(found: "FoundRock | None") -> tuple[str, str, float]:
+def _found(found: "FoundRock | None") -> dict[str, object]:
     """How a rock was found, as the columns of FLAGS."""
     if found is None:
-        return "labels", "", np.nan
+        return dict(zip(FLAGS, ("labels", "", np.nan), strict=True))
     sd_px = np.nan if found.outline is None else found.outline.sd_px
-    return found.branch, "; ".join(found.flags), sd_px
+    return dict(zip(FLAGS, (found.branch, "; ".join(found.flags), sd_px), strict=True))
 
 
-def _row(rock: Rock) -> tuple[object, ...]:
-    place = (rock.number, *(getattr(rock, name) for name in PLACE[1:]))
+def _row(rock: Rock, found: dict[str, object]) -> dict[str, object]:
+    """Everything that is known of a rock, by its column."""
     half_axes = [np.nan] * 3 if rock.ellipsoid is None else rock.ellipsoid.half_axes_m
-    described = () if rock.descriptors is None else dataclasses.astuple(rock.descriptors)
-    return (
-        *place,
-        *dataclasses.astuple(rock.points),
-        *half_axes,
-        *rock.values.values(),
-        rock.reason,
-        *described,
-    )
+    row: dict[str, object] = {"rock": rock.number, "reason": rock.reason}
+    row |= {name: getattr(rock, name) for name in PLACE[1:]}
+    row |= dataclasses.asdict(rock.points)
+    row |= zip(AXES, half_axes, strict=True)
+    row |= rock.values
+    if rock.sizes is not None:
+        row |= zip(SIZES, rock.sizes.row(), strict=True)
+    if rock.descriptors is not None:
+        row |= zip(DESCRIPTORS.values(), dataclasses.astuple(rock.descriptors), strict=True)
+    return row | found
 
 
 def _types(names: tuple[str, ...]) -> dict[str, str]:
     """The type of each column, so that an empty table has them too."""
-    whole = dict.fromkeys(("rock", "area_px", "width_px", "height_px", *POINTS), "int64")
+    numbers = ("rock", "area_px", "width_px", "height_px", *POINTS, *BOX)
+    whole = dict.fromkeys((name for name in numbers if name in names), "int64")
     words = {name: "object" for name in ("reason", "branch", "flags") if name in names}
     return dict.fromkeys(names, "float64") | whole | {"truncated": "bool"} | words

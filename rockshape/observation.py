@@ -11,6 +11,7 @@ from rockshape.camera.camera import Camera
 from rockshape.camera.lens import has_square_pixels
 from rockshape.errors import InputError
 from rockshape.rock.instances import Instances
+from rockshape.rock.level_ground import LevelGround
 
 if TYPE_CHECKING:
     from rockshape.camera.resection import Resection
@@ -51,7 +52,8 @@ class Observation:
     instances: Instances | None = None  # rocks outlined already; None: they are to be found
     ignored: NDArray[np.bool_] | None = None  # (rows, cols), where no rock is to be found
     left_out: Mapping[str, int] = field(default_factory=dict)  # pixels without range, by reason
-    pixel_size_m: float | None = None  # side of a pixel on what is seen, where the image tells it
+    pixel_size_m: float | None = None  # side of a pixel on what is seen, where it is known
+    level_ground: LevelGround | None = None  # below the camera, in place of range
     notes: tuple[str, ...] = ()  # what reading has changed or left out, each in a few words
 
     def __post_init__(self) -> None:

@@ -16,6 +16,7 @@ from rockshape.point_grid.flying import flying_pixels
 from rockshape.rock.blas_threads import one_blas_thread
 from rockshape.rock.instances import Instance, Instances, Window
 from rockshape.rock.point_fit import PointCounts
+from rockshape.rock.sizes import Sizes, pixel_on_rock_m, sizes_of
 from rockshape.rock.view import RockView
 from rockshape.rock.visibility import visible_fraction
 from rockshape.segmentation.finders import Finder, find_finder
@@ -33,6 +34,7 @@ def measure(
     find: str | Finder | None = None,
     labels: NDArray[np.int32] | Instances | None = None,
     descriptors: bool = False,
+    sizes: bool = False,
 ) -> Measurement:
     """Find the rocks in an observation and measure each.
 
@@ -42,6 +44,7 @@ def measure(
       with 0 the ground, or Instances. Nothing is then found. Of a rock in several pieces the
       largest is measured.
     - descriptors: whether each rock gets the descriptors of its outline too.
+    - sizes: whether each gets its axes, Feret diameters and area, px and, with a scale, mm.
 
     The camera is located first where range is given without one.
     Raises: InputError for an unknown method or finder, labels of another shape, a finder given
@@ -55,7 +58,7 @@ def measure(
         raise InputError("ignore: expected rocks that are to be found, found rocks given by labels")
     scene = _scene(locate_camera(observation), method, find, given)
     with one_blas_thread():
-        rocks = _measure_rocks(scene, method, described=descriptors)
+        rocks = _measure_rocks(scene, method, _Asked(descriptors=descriptors, sizes=sizes))
     return Measurement(
         method=method.name,
         measures=method.measures,
@@ -65,7 +68,16 @@ def measure(
         rocks=rocks,
         found=scene.found,
         described=descriptors,
+        sized=sizes,
     )
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """What each rock gets beside its measures."""
+
+    descriptors: bool
+    sizes: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,7 +134,7 @@ def _flying(observation: Observation) -> NDArray[np.bool_] | None:
     return flying_pixels(observation.points_m, pixel_rad=1.0 / observation.camera.fx)
 
 
-def _measure_rocks(scene: _Scene, method: Method, *, described: bool) -> tuple[Rock, ...]:
+def _measure_rocks(scene: _Scene, method: Method, asked: _Asked) -> tuple[Rock, ...]:
     """Measure every rock; measures that take a batch see all of them first."""
     parts = scene.instances.largest_parts()
     whole = {item.id: item for item in scene.instances}
@@ -144,7 +156,7 @@ def _measure_rocks(scene: _Scene, method: Method, *, described: bool) -> tuple[R
                 view=view,
                 method=method,
                 readings=readings,
-                described=described,
+                asked=asked,
             )
         )
     return tuple(rocks)
@@ -158,13 +170,14 @@ def _rock(
     view: RockView,
     method: Method,
     readings: dict[str, Reading],
-    described: bool,
+    asked: _Asked,
 ) -> Rock:
     fits = method.fits(view)
     rows, cols = part.window
     outline_px = (view.edge_px if fits.outline_px is None else fits.outline_px).view()
     outline_px.setflags(write=False)
     pixel_rows, pixel_cols = np.nonzero(part.mask)
+    descriptors = _describe(view) if asked.descriptors or asked.sizes else UNRESOLVED
     return Rock(
         number=part.id,
         row=rows.start + float(pixel_rows.mean()),
@@ -185,8 +198,16 @@ def _rock(
         ellipse=fits.ellipse,
         ellipsoid=fits.ellipsoid,
         readings=readings,
-        descriptors=_describe(view) if described else None,
+        descriptors=descriptors if asked.descriptors else None,
+        sizes=_sizes(view, descriptors, scene.observation) if asked.sizes else None,
     )
+
+
+def _sizes(view: RockView, descriptors: Descriptors, observation: Observation) -> Sizes:
+    pixel_m = pixel_on_rock_m(
+        view, level_ground=observation.level_ground, told_m=observation.pixel_size_m
+    )
+    return sizes_of(view, descriptors, pixel_m=pixel_m)
 
 
 def _flying_on(scene: _Scene, part: Instance) -> NDArray[np.bool_]:

@@ -117,6 +117,30 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="add outline descriptors: perimeter, Feret diameters, circularity, solidity, ...",
     )
     how.add_argument(
+        "--sizes",
+        action="store_true",
+        help="add axes, Feret diameters, area, orientation and box in px, and in mm by range or a "
+        "scale that the image's file tells",
+    )
+    how.add_argument(
+        "--scale",
+        metavar="SCALE",
+        help="side of a pixel, 0.39mm say, or two ends of a scale bar, 40,52:540,52=100mm; adds "
+        "the columns of --sizes",
+    )
+    how.add_argument(
+        "--camera-height",
+        metavar="LENGTH",
+        help="height of the camera above level ground, 1.5m say, in place of range or --scale; "
+        "with --tilt and --camera",
+    )
+    how.add_argument(
+        "--tilt",
+        type=float,
+        metavar="DEG",
+        help="how far the camera looks below the horizon",
+    )
+    how.add_argument(
         "--flags",
         action="store_true",
         help="add columns on how each rock was found and what limits its view",

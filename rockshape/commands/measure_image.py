@@ -8,6 +8,7 @@ from pathlib import Path
 from rockshape.commands.summary import summarise
 from rockshape.errors import InputError
 from rockshape.inputs.files import read
+from rockshape.inputs.scale import with_scale
 from rockshape.io import write_image, write_table
 from rockshape.io.files import check_writable, write_bytes
 from rockshape.io.registry import IMAGES, LABELS, TABLES
@@ -15,7 +16,9 @@ from rockshape.measurement import Measurement, to_frame
 from rockshape.method import find_method
 from rockshape.pipeline import measure
 from rockshape.point_grid.range_kinds import RangeKind
+from rockshape.point_grid.units import parse_length
 from rockshape.report.overlay import overlay
+from rockshape.rock.level_ground import LevelGround
 from rockshape.rock.pieces import Pieces
 
 PAGES = (".html", ".htm")
@@ -40,6 +43,10 @@ class MeasureOptions:
     find: str | None
     method: str
     descriptors: bool
+    sizes: bool
+    scale: str | None
+    camera_height: str | None
+    tilt: float | None
     flags: bool
     out: Path | None
     labels_out: Path | None
@@ -68,16 +75,33 @@ def measure_image(options: MeasureOptions) -> None:
         ignore=options.ignore,
         max_pixels=options.max_pixels,
     )
+    level_ground = _level_ground(options)
+    observation = with_scale(observation, scale=options.scale, level_ground=level_ground)
     encoded = None
     if options.labels_out is not None and observation.instances is not None:
         encoded = LABELS.encode(options.labels_out, observation.instances)
     measurement = measure(
-        observation, method=method, find=options.find, descriptors=options.descriptors
+        observation,
+        method=method,
+        find=options.find,
+        descriptors=options.descriptors,
+        sizes=options.sizes or options.scale is not None or level_ground is not None,
     )
     if options.labels_out is not None and encoded is None:
         encoded = LABELS.encode(options.labels_out, measurement.instances)
     _write(options, measurement, encoded)
     print(summarise(measurement), file=sys.stderr)
+
+
+def _level_ground(options: MeasureOptions) -> LevelGround | None:
+    """Level ground that was told. Raises: InputError for a height or a tilt alone."""
+    if options.camera_height is None and options.tilt is None:
+        return None
+    if options.camera_height is None or options.tilt is None:
+        alone = "--tilt" if options.camera_height is None else "--camera-height"
+        raise InputError(f"{alone}: expected --camera-height and --tilt together, found one")
+    height_m = parse_length(options.camera_height, what="--camera-height", example="1.5m")
+    return LevelGround(height_m, options.tilt)
 
 
 def _labels(options: MeasureOptions) -> Path | None:

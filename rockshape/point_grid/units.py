@@ -38,6 +38,15 @@ def parse_unit(text: str) -> RangeScale:
 
     Raises: InputError for any other text.
     """
+    metres = parse_length(text, what="range_unit (--range-unit)", example="0.25mm")
+    return RangeScale(metres, f"--range-unit {text.strip()}", meant=True)
+
+
+def parse_length(text: str, *, what: str, example: str) -> float:
+    """Length, m, of a unit's name, `mm`, or of a number of them, `0.25mm`.
+
+    Raises: InputError for any other text; `what` begins it.
+    """
     parts = re.fullmatch(r"\s*([0-9.]+(?:[eE][-+]?[0-9]+)?)?\s*([a-zµμ]+)\s*", text)
     name = parts[2].replace("µ", "u").replace("μ", "u") if parts else text
     try:
@@ -46,10 +55,10 @@ def parse_unit(text: str) -> RangeScale:
         count = 0.0
     if name not in UNITS_M or not (np.isfinite(count) and count > 0):
         raise InputError(
-            f"range_unit (--range-unit): expected {', '.join(UNITS_M)} or a number of them, "
-            f"0.25mm say, found {text!r}{did_you_mean(name, UNITS_M)}"
+            f"{what}: expected {', '.join(UNITS_M)} or a number of them, "
+            f"{example} say, found {text!r}{did_you_mean(name, UNITS_M)}"
         )
-    return RangeScale(count * UNITS_M[name], f"--range-unit {text.strip()}", meant=True)
+    return count * UNITS_M[name]
 
 
 def check_distance(points_m: NDArray[np.float64], scale: RangeScale) -> None:

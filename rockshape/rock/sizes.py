@@ -78,7 +78,7 @@ def sizes_of(view: RockView, descriptors: Descriptors, *, pixel_m: float) -> Siz
 def pixel_on_rock_m(
     view: RockView, *, level_ground: LevelGround | None, told_m: float | None
 ) -> float:
-    """Side of a pixel on a rock, m: by its range, by level ground at its foot, or as told; else NaN."""
+    """Side of a pixel on a rock, m: by range, by level ground at its foot, or as told; else NaN."""
     if view.camera is not None and len(view.points_m):
         return float(np.median(view.points_m[:, 2])) / view.camera.fx
     if view.camera is not None and level_ground is not None:

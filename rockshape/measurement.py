@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from rockshape.ground import Ground
+    from rockshape.samples import Summary
     from rockshape.segmentation import FoundRock
 
 
@@ -149,6 +150,18 @@ class Measurement:
     def to_frame(self) -> "pd.DataFrame":
         """Table, one row a rock; see `to_frame`."""
         return to_frame(self)
+
+    def summary(self, size: str | None = None, *, least: float | None = None) -> "Summary":
+        """Sizes, sorting and classes of form of the rocks that the frame does not cut.
+
+        size is a column of `to_frame`, by default the first with values of minor_axis_mm,
+        feret_min_mm, axis_b_m, minor_axis_px and feret_min_px; smaller rocks than `least` are left
+        out.
+        Raises: InputError for another column, and where no column has sizes.
+        """
+        from rockshape.samples import summarise  # noqa: PLC0415 - brings scipy.stats
+
+        return summarise(self.to_frame(), size=size, least=least)
 
     def plot(self, axes: "Axes | None" = None) -> "Axes":
         """Draw the image with each rock's outline, number and ellipse on matplotlib axes."""

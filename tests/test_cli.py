@@ -79,7 +79,11 @@ def test_the_version_is_the_distributions_and_imports_nothing_heavy():
     ("arguments", "line"),
     [
         ("mesure", "rockshape: unknown command 'mesure'; did you mean 'measure'?"),
-        ("zzz", "rockshape: unknown command 'zzz'; expected formats, measure, synth or validate"),
+        (
+            "zzz",
+            "rockshape: unknown command 'zzz'; expected formats, measure, summarise, synth "
+            "or validate",
+        ),
         ("--vresion", "rockshape: unknown option '--vresion'; did you mean '--version'?"),
         (
             "measure a.png --mehtod=paper",

@@ -1,0 +1,53 @@
+"""Sample: the rocks of tables that are counted, and those that are left out."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rockshape.numerics.arrays import Floats
+from rockshape.samples.size_column import SizeColumn
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+@dataclass(frozen=True, eq=False)
+class Sample:
+    """Counted rocks with their sizes; why others are left out, with their numbers."""
+
+    table: "pd.DataFrame"  # of the counted rocks
+    sizes: Floats  # (n,), in the unit of the column
+    sds: Floats | None  # (n,)
+    column: SizeColumn
+    left_out: dict[str, int]
+
+    def __len__(self) -> int:
+        return len(self.sizes)
+
+
+def sample_of(
+    table: "pd.DataFrame", column: SizeColumn, *, least: float | None = None, cut: bool = False
+) -> Sample:
+    """Sample of a table: rocks with a size, no smaller than `least`, whole in the frame.
+
+    With `cut` those that the frame cuts count too; their size is that of what is in sight.
+    """
+    sizes = column.sizes(table)
+    keep = np.ones(len(table), dtype=bool)
+    left_out: dict[str, int] = {}
+
+    def leave(reason: str, which: NDArray[np.bool_]) -> None:
+        gone = int((keep & which).sum())
+        if gone:
+            left_out[reason] = gone
+        np.logical_and(keep, ~which, out=keep)
+
+    leave("without a size", ~(np.isfinite(sizes) & (sizes > 0)))
+    if not cut and "truncated" in table:
+        leave("cut by the frame", table["truncated"].to_numpy(bool))
+    if least is not None:
+        leave(f"smaller than {least:g} {column.unit}".rstrip(), sizes < least)
+    sds = column.sds(table)
+    return Sample(table[keep], sizes[keep], None if sds is None else sds[keep], column, left_out)

@@ -134,6 +134,10 @@ class MipMap:
         while len(self._levels[-1]) > _LEAST_SIDE:
             self._levels.append(halved(self._levels[-1]))
 
+    def mean(self) -> Singles:
+        """Means of the maps, (channels,)."""
+        return np.asarray(self._levels[-1].mean(axis=(0, 1)))
+
     def at(self, columns: Singles, rows: Singles, footprint: Singles) -> Singles:
         """Maps at places (n,) in samples, as (n,) or (n, channels), linear between samples.
 

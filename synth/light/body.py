@@ -26,9 +26,10 @@ class Body:
     vertices_m: Floats  # (n, 3)
     faces: Ints  # (m, 3)
     normals: Floats  # (n, 3), outward unit normals
-    albedo: float  # the mean over the surface
+    albedo: float  # the mean over the surface, but for one whose paint has it all
     model_to_world: Floats  # (3, 3), the texture turns with the body
     position_m: Floats  # (3,), and moves with it
     tint: Floats = field(default_factory=lambda: np.ones(3))  # (3,), of luminance 1
     paint: Paint | None = None  # None: even
+    painted_albedo: float = 1.0  # mean luminance of the paint over the surface
     relief: Relief | None = None  # None: none but the triangles'

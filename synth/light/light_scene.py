@@ -5,7 +5,7 @@ import numpy as np
 from synth.arrays import Floats
 from synth.geometry.mesh import Mesh
 from synth.light.body import Body
-from synth.light.colour import Appearance, tint
+from synth.light.colour import LUMINANCE, Appearance, tint
 from synth.light.lit_scene import Stage
 from synth.light.mast import MastShadow
 from synth.light.painter import Painter
@@ -85,5 +85,6 @@ def _ground_body(mesh: Mesh, skin: Skin | None, surface: SurfaceSpec, colour: Fl
         position_m=np.zeros(3),
         tint=colour if skin is None else np.ones(3),
         paint=None if skin is None else skin.paint,
+        painted_albedo=1.0 if skin is None else float(skin.mean_rgb @ LUMINANCE),
         relief=None if skin is None else skin.relief,
     )

@@ -35,7 +35,9 @@ def echo_of(shot: SensorInput) -> Echo:
     eye_m = np.broadcast_to(shot.pose.position_m().astype(np.float32), rays.shape)
     hits = surfaces.trace(np.ascontiguousarray(eye_m), rays)
     there = np.flatnonzero(hits.body >= 0)
-    albedo = np.array([body.albedo for body in (*shot.stage.rocks, *shot.stage.ground)])
+    stage = shot.stage
+    bodies = (*stage.rocks, *stage.ground, *stage.things)
+    albedo = np.array([body.albedo * body.painted_albedo for body in bodies])
     lengths = ray_lengths(camera)
     facing = np.zeros(lengths.size)
     towards = -(surfaces.normals_at(hits, there) * rays[there]).sum(axis=1)

@@ -107,8 +107,10 @@ class RoughGround:
 
     def skins(self) -> tuple[Skin | None, ...]:
         """Skin of each mesh."""
-        soil = Skin(self.soil.reflectance, self.soil.normals)
-        return (soil,) if self.stones is None else (soil, Skin(self.pebble.reflectance))
+        soil = Skin(self.soil.reflectance, self.soil.mean_rgb(), self.soil.normals)
+        if self.stones is None:
+            return (soil,)
+        return soil, Skin(self.pebble.reflectance, np.array(self.pebble.pebble))
 
 
 def rough_heights(

@@ -6,7 +6,7 @@ from functools import cache
 
 import numpy as np
 
-from synth.arrays import Singles
+from synth.arrays import Floats, Singles
 from synth.noise import MipMap, fractal, slopes, stones
 from synth.spec.terrain import Colour, TerrainSpec
 from synth.terrain.grid import HeightGrid, Spacing
@@ -27,6 +27,8 @@ class Skin:
 
     paint: Callable[[Singles, Singles], Singles]
     """Linear red, green and blue (n, 3) at points (n, 3), averaged over footprints (n,)."""
+    mean_rgb: Floats
+    """Linear red, green and blue (3,), about their mean over the surface."""
     relief: Callable[[Singles, Singles, Singles], Singles] | None = None
     """Unit normals (n, 3) with the finer relief at points (n, 3) where the triangles' normals are
     (n, 3), averaged over footprints (n,); None: the triangles have it all."""
@@ -45,6 +47,14 @@ class SoilSkin:
     bedrock: Colour
     grit_m: float
     tails: HeightGrid | None = None  # thickness of the sand behind rocks
+
+    def mean_rgb(self) -> Floats:
+        """See `Skin.mean_rgb`; of the maps' covers, without tails and grit."""
+        drift, bedrock, crack = self.covers.mean()
+        soil, dust, rock = (np.array(one) for one in (self.soil, self.dust, self.bedrock))
+        colour = soil + drift * (dust - soil)
+        colour += bedrock * (rock - colour)
+        return np.asarray(colour * (1.0 - (1.0 - _IN_CRACKS) * crack))
 
     def reflectance(self, points_m: Singles, footprint_m: Singles) -> Singles:
         """See `Skin.paint`."""

@@ -1,4 +1,4 @@
-"""Contact sheet of made grounds beside a picture of Mars."""
+"""Contact sheet of made grounds beside a picture of Mars, and a picture of drift tails."""
 
 from pathlib import Path
 
@@ -14,6 +14,12 @@ PHOTO = ROOT / "examples" / "mars" / "i944014r.png"
 FIELD = {"kind": "golombek-rapp", "radius_m": 2.5, "d_min_m": 0.16}
 IMP = {"preset": "imp", "distance_m": 8.0, "elevation_deg": 20.0}
 LOW = {"preset": "sojourner", "distance_m": 3.5, "elevation_deg": 14.0, "target_m": [0, 0, 0.5]}
+TAILS = {
+    "ground": {"terrain": {"tail_length": [1.0, 3.0], "wind_deg": 250.0}},
+    "population": FIELD,
+    "camera": LOW,
+    "seed": 12,
+}
 CRUST = {"terrain": {"crust": 0.8, "drift": 0.15, "crust_plate_m": 0.3}, "pebbles_per_m2": 60.0}
 SCENES = (
     {"population": FIELD, "camera": IMP, "seed": 11},
@@ -43,7 +49,7 @@ def made(spec: dict[str, object]) -> np.ndarray:
 
 
 def main() -> None:
-    """Draw docs/images/grounds.jpg: six made grounds, and a photograph of Mars."""
+    """Draw grounds.jpg, six made grounds and a photograph, and tails.jpg, in docs/images."""
     cells = [cell(made(spec)) for spec in SCENES]
     photo = cell(np.asarray(Image.open(PHOTO).convert("RGB")))
     rows = [
@@ -52,6 +58,7 @@ def main() -> None:
     ]
     sheet = Image.fromarray(np.concatenate(rows))
     sheet.save(ROOT / "docs" / "images" / "grounds.jpg", quality=88)
+    Image.fromarray(made(TAILS)).save(ROOT / "docs" / "images" / "tails.jpg", quality=88)
 
 
 if __name__ == "__main__":

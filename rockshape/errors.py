@@ -12,6 +12,18 @@ class InputError(ValueError):
     exit_status = 2
 
 
+class MissingPackageError(RuntimeError):
+    """A package that the work needs is not installed; the message names it."""
+
+    exit_status = 3
+
+
+class WorkerError(RuntimeError):
+    """Workers die at a unit again and again."""
+
+    exit_status = 3
+
+
 def did_you_mean(found: str, known: Iterable[str]) -> str:
     """Clause "; did you mean 'x'?" with the nearest known name, empty where none is near."""
     near = get_close_matches(found, list(known), n=1)

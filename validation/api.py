@@ -10,12 +10,12 @@ from tempfile import TemporaryDirectory
 import msgspec
 import pandas as pd
 
+from rockshape.execution.executors import default_jobs, local
 from rockshape.measurement import Measurement
 from rockshape.method import Method
 from validation.errors import InputError
 from validation.execution.compare import MARGIN
 from validation.execution.compare import compare as compare_runs
-from validation.execution.executors import default_jobs, local
 from validation.execution.recorded import check_paired, load_recorded
 from validation.execution.run import Run, prepare, run_suite
 from validation.execution.run_lock import run_lock

@@ -11,8 +11,8 @@ import pandas as pd
 import pytest
 
 from rockshape.cli import main
+from rockshape.execution.executors import cluster, local
 from validation.execution.dispatch import dispatch
-from validation.execution.executors import cluster, local
 from validation.execution.store import UnitStore, unit_key
 from validation.execution.units import Unit
 from validation.kinds.shapes.spec import ShapesExperiment
@@ -93,7 +93,7 @@ def test_a_worker_killed_in_mid_run_changes_nothing(tmp_path) -> None:
 def test_no_scheduler_there_is_one_line_and_status_2(
     address, tmp_path, capsys, monkeypatch
 ) -> None:
-    monkeypatch.setattr("validation.execution.executors.CONNECT_S", 1)
+    monkeypatch.setattr("rockshape.execution.executors.CONNECT_S", 1)
     out = tmp_path / "out"
     words = [
         "validate",

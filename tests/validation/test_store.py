@@ -15,10 +15,10 @@ import msgspec
 import pandas as pd
 import pytest
 
+from rockshape.execution.executors import LocalExecutor, local
 from validation.errors import InputError, WorkerError
 from validation.execution import store as store_module
 from validation.execution.dispatch import dispatch, run_packed
-from validation.execution.executors import LocalExecutor, local
 from validation.execution.store import UnitStore, code_of, is_store, pack, unit_key
 from validation.execution.units import Unit, units_of
 from validation.execution.work import run_unit

@@ -13,9 +13,9 @@ from typing import NoReturn
 
 import msgspec
 
+from rockshape.execution.executors import cluster, default_jobs, local
 from validation.commands.progress import Progress
 from validation.errors import InputError, Terminated
-from validation.execution.executors import cluster, default_jobs, local
 from validation.execution.run import Run, prepare, run_suite
 from validation.execution.run_lock import run_lock
 from validation.execution.store import FOLDER, UnitStore, unit_key

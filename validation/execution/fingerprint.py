@@ -24,6 +24,7 @@ LEFT_OUT = frozenset(
         "rockshape/cli.py",
         "rockshape/commands",
         "rockshape/report",
+        "rockshape/samples",
         "synth/cli.py",
         "synth/commands",
         "validation/api.py",

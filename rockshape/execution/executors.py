@@ -18,7 +18,7 @@ from multiprocessing.context import SpawnContext, SpawnProcess
 from types import ModuleType
 from typing import Any
 
-from validation.errors import InputError, MissingPackageError, WorkerError
+from rockshape.errors import InputError, MissingPackageError, WorkerError
 
 TRIES = 3  # of a unit whose worker dies; a Dask scheduler has the same by default
 CONNECT_S = 10

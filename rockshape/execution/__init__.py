@@ -1,0 +1,1 @@
+"""Execution of work in processes of this machine or on a cluster."""

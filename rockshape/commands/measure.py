@@ -18,12 +18,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = examples(
         "rockshape measure frame.png --range frame_xyz.npz --out rocks.csv --overlay rocks.png",
         "rockshape measure photo.jpg --labels outlines.json --descriptors --out rocks.csv",
+        "rockshape measure photos --labels masks --scale 0.39mm --out grains.parquet --jobs 2",
     )
     parser.add_argument(
-        "image",
-        type=Path,
+        "images",
+        nargs="+",
         metavar="IMAGE",
-        help="image file, grey or colour, a PNG, JPEG or TIFF say",
+        help="image file, grey or colour, a PNG, JPEG or TIFF say; several, a folder, a pattern or "
+        "a .txt list of them are measured into one table, and --labels, --range, --camera, ... "
+        "may then be folders, whose files are paired by name, or patterns with {stem}",
     )
     inputs = parser.add_argument_group(
         "inputs", "`rockshape formats` lists all formats of each kind of file"
@@ -168,12 +171,38 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--report", type=Path, metavar="FILE", help="HTML page with overlay and table"
     )
 
+    batch = parser.add_argument_group("many images")
+    batch.add_argument(
+        "--jobs", type=int, metavar="N", help="processes (default: one for each processor)"
+    )
+    batch.add_argument(
+        "--scheduler", metavar="ADDRESS", help="Dask scheduler in place of --jobs, tcp://host:8786"
+    )
+    batch.add_argument(
+        "--resume", action="store_true", help="keep what an earlier run of this command has done"
+    )
+    batch.add_argument(
+        "--strict", action="store_true", help="end with status 2 where any image failed"
+    )
+
 
 def run(args: argparse.Namespace) -> int:
-    """Measure one image and write what was asked for."""
-    # brings NumPy, OpenCV and pandas, half a second
-    from rockshape.commands.measure_image import MeasureOptions, measure_image  # noqa: PLC0415
+    """Measure one image or many and write what was asked for."""
+    # bring NumPy, OpenCV and pandas, half a second
+    from rockshape.batch.images import is_batch  # noqa: PLC0415
+    from rockshape.commands.measure_image import measure_image  # noqa: PLC0415
+    from rockshape.commands.measure_options import MeasureOptions  # noqa: PLC0415
 
+    args.image = Path(args.images[0])
     names = MeasureOptions.__dataclass_fields__
-    measure_image(MeasureOptions(**{name: getattr(args, name) for name in names}))
-    return 0
+    options = MeasureOptions(**{name: getattr(args, name) for name in names})
+    if not is_batch(args.images):
+        measure_image(options)
+        return 0
+    from rockshape.commands.measure_batch import BatchOptions, measure_batch  # noqa: PLC0415
+
+    return measure_batch(
+        args.images,
+        options,
+        BatchOptions(args.jobs, args.scheduler, resume=args.resume, strict=args.strict),
+    )

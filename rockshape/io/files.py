@@ -3,7 +3,8 @@
 import os
 import stat
 import tempfile
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from math import prod
@@ -112,24 +113,29 @@ def write_bytes(path: Path, data: bytes) -> None:
 
     Raises: InputError where the system refuses: a full disk, a folder that takes no files.
     """
+    with draft_of(path) as draft:
+        draft.write(data)
+
+
+@contextmanager
+def draft_of(path: Path) -> Iterator[IO[bytes]]:
+    """File beside a path that gets the path's name once it is filled, and is removed otherwise.
+
+    Raises: InputError where the system refuses: a full disk, a folder that takes no files.
+    """
     check_writable(path, suffixes=(path.suffix.lower(),))
     try:
         with tempfile.NamedTemporaryFile(dir=path.parent, prefix=".", delete=False) as draft:
-            _finish(path, draft, data)
+            try:
+                yield draft
+                draft.close()
+                Path(draft.name).chmod(0o666 & ~_umask())
+                Path(draft.name).replace(path)
+            except BaseException:
+                Path(draft.name).unlink(missing_ok=True)
+                raise
     except OSError as error:
         raise InputError(f"{path}: expected a place to write, found {error.strerror}") from None
-
-
-def _finish(path: Path, draft: IO[bytes], data: bytes) -> None:
-    """Fill a draft and give it the path's name, or remove it."""
-    try:
-        draft.write(data)
-        draft.close()
-        Path(draft.name).chmod(0o666 & ~_umask())
-        Path(draft.name).replace(path)
-    except BaseException:
-        Path(draft.name).unlink(missing_ok=True)
-        raise
 
 
 def _umask() -> int:

@@ -14,12 +14,12 @@ from typing import NoReturn
 import msgspec
 
 from rockshape.execution.executors import cluster, default_jobs, local
-from validation.commands.progress import Progress
+from rockshape.execution.progress import Progress
 from validation.errors import InputError, Terminated
 from validation.execution.run import Run, prepare, run_suite
 from validation.execution.run_lock import run_lock
 from validation.execution.store import FOLDER, UnitStore, unit_key
-from validation.execution.units import units_of
+from validation.execution.units import describe, units_of
 from validation.peers.function_process import end_functions
 from validation.peers.parse import parse_measure, parse_traits, settle
 from validation.report import check_target, write_run
@@ -123,10 +123,18 @@ def _run(args: argparse.Namespace) -> int:
             store = UnitStore(out / FOLDER, keep=args.resume)
             units = units_of(suite)
             progress = stack.enter_context(
-                closing(Progress(len(units), sum(store.has(unit_key(unit)) for unit in units)))
+                closing(
+                    Progress(
+                        len(units), sum(store.has(unit_key(unit)) for unit in units), unit="unit"
+                    )
+                )
             )
             outcome = run_suite(
-                suite, gates=gates, executor=executor, store=store, on_done=progress.advance
+                suite,
+                gates=gates,
+                executor=executor,
+                store=store,
+                on_done=lambda unit: progress.advance(describe(unit)),
             )
         seconds = time.monotonic() - start
         write_run(outcome, out, command=_command(args, jobs), seconds=seconds)

@@ -1,0 +1,1 @@
+"""Batches: many images measured into one table, resumed where they were cut off."""

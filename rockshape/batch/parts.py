@@ -1,0 +1,81 @@
+"""Results of a batch on disk: a Parquet file an image, joined into one table at the end."""
+
+import hashlib
+import json
+import shutil
+from collections.abc import Collection, Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rockshape.errors import InputError
+from rockshape.io.files import write_bytes
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+_MARK = "_rockshape-batch.json"  # readers of data sets pass by names that begin so
+_FORMAT = "rockshape batch 1"
+
+
+class Parts:
+    """Folder of results, each under a key that hashes the image's files and the options."""
+
+    def __init__(self, folder: Path, *, keep: Collection[str]) -> None:
+        """Open a folder; of the results that are there those of some keys are kept.
+
+        Raises: InputError for a folder of other files.
+        """
+        self.folder = folder
+        if folder.exists():
+            mark = folder / _MARK
+            if not folder.is_dir() or (any(folder.iterdir()) and not mark.is_file()):
+                raise InputError(f"{folder}: expected a new folder or a batch's, found another")
+            for path in self.folder.glob("*.parquet"):
+                if path.stem not in keep:
+                    path.unlink()
+        folder.mkdir(parents=True, exist_ok=True)
+        write_bytes(folder / _MARK, json.dumps({"format": _FORMAT}).encode())
+
+    def path(self, key: str) -> Path:
+        """File of a result."""
+        return self.folder / f"{key}.parquet"
+
+    def has(self, key: str) -> bool:
+        """Whether a result is there."""
+        return self.path(key).is_file()
+
+    def put(self, key: str, content: bytes) -> None:
+        """Write a result whole."""
+        write_bytes(self.path(key), content)
+
+    def rocks(self, key: str) -> int:
+        """Number of rocks of a result."""
+        import pyarrow.parquet as pq  # noqa: PLC0415 - needed at the end alone
+
+        return int(pq.read_metadata(self.path(key)).num_rows)
+
+    def tables(self, keys: Sequence[str]) -> "Iterator[pd.DataFrame]":
+        """Yield results in turn."""
+        import pandas as pd  # noqa: PLC0415 - it takes as long as all else
+
+        for key in keys:
+            yield pd.read_parquet(self.path(key))
+
+    def remove(self) -> None:
+        """Remove the folder with all results."""
+        shutil.rmtree(self.folder)
+
+
+def key_of(number: int, image: Path, files: dict[str, Path], options: dict[str, Any]) -> str:
+    """Key of an image's result: its place in the batch, its name and a hash of what it depends on.
+
+    Of files the path, size and time of change count.
+    """
+    seen = {}
+    for name, path in {"image": image, **files}.items():
+        told = path.stat() if path.exists() else None
+        seen[name] = (str(path), told and told.st_size, told and told.st_mtime_ns)
+    text = json.dumps([seen, options], sort_keys=True, default=str)
+    digest = hashlib.sha256(text.encode()).hexdigest()[:12]
+    plain = "".join(each if each.isalnum() or each in "-_" else "-" for each in image.stem)[:60]
+    return f"{number:06d}-{plain}-{digest}"

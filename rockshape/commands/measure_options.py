@@ -1,0 +1,58 @@
+"""What `rockshape measure` was asked for of one image."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from rockshape.errors import InputError
+from rockshape.point_grid.range_kinds import RangeKind
+from rockshape.point_grid.units import parse_length
+from rockshape.rock.level_ground import LevelGround
+from rockshape.rock.pieces import Pieces
+
+
+@dataclass(frozen=True)
+class MeasureOptions:
+    """What `rockshape measure` was asked for; None where a file was not named."""
+
+    image: Path
+    range: Path | None
+    range_kind: RangeKind | None
+    range_unit: str | None
+    right: Path | None
+    camera: Path | None
+    camera_view: str | None
+    labels: Path | None
+    instances: Path | None
+    pieces: Pieces
+    ignore: Path | None
+    max_pixels: int
+    find: str | None
+    method: str
+    descriptors: bool
+    sizes: bool
+    scale: str | None
+    camera_height: str | None
+    tilt: float | None
+    flags: bool
+    out: Path | None
+    labels_out: Path | None
+    overlay: Path | None
+    report: Path | None
+
+    @property
+    def given_labels(self) -> Path | None:
+        """Labels that were given one way or the other. Raises: InputError for both."""
+        if self.labels is not None and self.instances is not None:
+            raise InputError("--instances: expected it without --labels, found both")
+        return self.instances if self.labels is None else self.labels
+
+    @property
+    def level_ground(self) -> LevelGround | None:
+        """Level ground that was told. Raises: InputError for a height or a tilt alone."""
+        if self.camera_height is None and self.tilt is None:
+            return None
+        if self.camera_height is None or self.tilt is None:
+            alone = "--tilt" if self.camera_height is None else "--camera-height"
+            raise InputError(f"{alone}: expected --camera-height and --tilt together, found one")
+        height_m = parse_length(self.camera_height, what="--camera-height", example="1.5m")
+        return LevelGround(height_m, self.tilt)

@@ -81,15 +81,14 @@ def test_the_version_is_the_distributions_and_imports_nothing_heavy():
         ("mesure", "rockshape: unknown command 'mesure'; did you mean 'measure'?"),
         (
             "zzz",
-            "rockshape: unknown command 'zzz'; expected formats, measure, summarise, synth "
-            "or validate",
+            "rockshape: unknown command 'zzz'; expected columns, formats, measure, summarise, "
+            "synth or validate",
         ),
         ("--vresion", "rockshape: unknown option '--vresion'; did you mean '--version'?"),
         (
             "measure a.png --mehtod=paper",
             "rockshape measure: unknown option '--mehtod'; did you mean '--method'?",
         ),
-        ("measure a.png b.png", "rockshape measure: unknown argument 'b.png'"),
         ("synth scen out", "rockshape synth: unknown kind 'scen'; did you mean 'scene'?"),
         (
             "synth scene out --rokcs 3",

@@ -9,15 +9,17 @@ from typing import TYPE_CHECKING, Any
 
 from rockshape.errors import InputError
 from rockshape.io.files import write_bytes
+from rockshape.io.tables.parquet import KEY
 
 if TYPE_CHECKING:
     import pandas as pd
 
 _MARK = "_rockshape-batch.json"  # readers of data sets pass by names that begin so
 _FORMAT = "rockshape batch 1"
+ABOUT = KEY.encode()
 
 
-class Parts:
+class ResultFolder:
     """Folder of results, each under a key that hashes the image's files and the options."""
 
     def __init__(self, folder: Path, *, keep: Collection[str]) -> None:
@@ -53,6 +55,13 @@ class Parts:
         import pyarrow.parquet as pq  # noqa: PLC0415 - needed at the end alone
 
         return int(pq.read_metadata(self.path(key)).num_rows)
+
+    def about(self, keys: Sequence[str]) -> dict[str, Any]:
+        """What is known about all results: that of the first, with the inputs of each."""
+        import pyarrow.parquet as pq  # noqa: PLC0415 - likewise
+
+        told = [json.loads(pq.read_schema(self.path(key)).metadata[ABOUT]) for key in keys]
+        return {**told[0], "inputs": [each for one in told for each in one["inputs"]]}
 
     def tables(self, keys: Sequence[str]) -> "Iterator[pd.DataFrame]":
         """Yield results in turn."""

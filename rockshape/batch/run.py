@@ -6,13 +6,13 @@ from concurrent.futures import Executor, Future
 from dataclasses import dataclass
 from pathlib import Path
 
-from rockshape.batch.parts import Parts
+from rockshape.batch.parts import ResultFolder
 
 WINDOW = 64  # images handed over at a time: neither futures nor results pile up
 
 
 @dataclass(frozen=True)
-class Outcome:
+class ImageResult:
     """What became of one image: its table as Parquet, or why there is none."""
 
     rocks: int
@@ -26,14 +26,14 @@ class Task:
 
     key: str
     image: Path
-    work: Callable[[], Outcome]  # can be pickled
+    work: Callable[[], ImageResult]  # can be pickled
 
 
 def run_batch(
     tasks: Sequence[Task],
     executor: Executor,
-    parts: Parts,
-    on_done: Callable[[Task, Outcome], None],
+    parts: ResultFolder,
+    on_done: Callable[[Task, ImageResult], None],
 ) -> dict[Path, str]:
     """Measure what the parts lack; return why images have no result."""
     failures: dict[Path, str] = {}
@@ -46,9 +46,9 @@ def run_batch(
     return failures
 
 
-def _outcomes(tasks: Sequence[Task], executor: Executor) -> Iterator[tuple[Task, Outcome]]:
+def _outcomes(tasks: Sequence[Task], executor: Executor) -> Iterator[tuple[Task, ImageResult]]:
     """Yield outcomes in the order of the tasks, so many ahead."""
-    waiting: deque[tuple[Task, Future[Outcome]]] = deque()
+    waiting: deque[tuple[Task, Future[ImageResult]]] = deque()
     coming = iter(tasks)
     try:
         while True:

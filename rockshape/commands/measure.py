@@ -17,7 +17,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the command's arguments."""
     parser.epilog = examples(
         "rockshape measure frame.png --range frame_xyz.npz --out rocks.csv --overlay rocks.png",
-        "rockshape measure photo.jpg --labels outlines.json --descriptors --out rocks.csv",
         "rockshape measure photos --labels masks --scale 0.39mm --out grains.parquet --jobs 2",
     )
     parser.add_argument(

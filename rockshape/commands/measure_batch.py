@@ -1,10 +1,9 @@
 """Measurement of many images into one table, the work of `rockshape measure` on a batch."""
 
-import io
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, closing
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -14,13 +13,14 @@ import cv2
 from rockshape.batch.images import images_of
 from rockshape.batch.joining import check_joinable, write_joined
 from rockshape.batch.pairing import Companion, paired
-from rockshape.batch.parts import Parts, key_of
-from rockshape.batch.run import Outcome, Task, run_batch
-from rockshape.commands.measure_image import measure_files
+from rockshape.batch.parts import ResultFolder, key_of
+from rockshape.batch.run import ImageResult, Task, run_batch
+from rockshape.commands.measure_image import about_table, measure_files
 from rockshape.commands.measure_options import MeasureOptions
 from rockshape.errors import InputError
 from rockshape.execution.executors import cluster, default_jobs, local
 from rockshape.execution.progress import Progress
+from rockshape.io.tables.parquet import encode_parquet
 from rockshape.measurement import to_frame
 from rockshape.method import find_method
 
@@ -57,7 +57,7 @@ def measure_batch(given: Sequence[str], options: MeasureOptions, batch: BatchOpt
     joined = out.suffix != ""
     jobs = default_jobs() if batch.jobs is None else batch.jobs
     place = cluster(batch.scheduler) if batch.scheduler else local(jobs)
-    parts = Parts(
+    parts = ResultFolder(
         out.with_name(f"{out.name}.parts") if joined else out,
         keep={task.key for task in tasks} if batch.resume else (),
     )
@@ -66,7 +66,7 @@ def measure_batch(given: Sequence[str], options: MeasureOptions, batch: BatchOpt
         there = sum(parts.has(task.key) for task in tasks)
         bar = stack.enter_context(closing(Progress(len(tasks), there, unit="image")))
 
-        def done(task: Task, outcome: Outcome) -> None:
+        def done(task: Task, outcome: ImageResult) -> None:
             bar.advance(f"{task.image.name}: {outcome.failure or f'{outcome.rocks} rocks'}")
 
         failures |= run_batch(tasks, executor, parts, done)
@@ -74,7 +74,7 @@ def measure_batch(given: Sequence[str], options: MeasureOptions, batch: BatchOpt
     _tell_end(len(keys), there, sum(parts.rocks(key) for key in keys), failures)
     if joined:
         if keys:
-            write_joined(out, parts.tables(keys))
+            write_joined(out, parts.tables(keys), about=parts.about(keys))
         parts.remove()
     return 2 if failures and (batch.strict or not keys) else 0
 
@@ -101,12 +101,7 @@ def _checked(options: MeasureOptions) -> Path:
 
 
 def _tasks(files: dict[Path, dict[str, Path]], options: MeasureOptions) -> Iterator[Task]:
-    left_out = {"image", "out", *COMPANIONS}
-    plain = {
-        field.name: getattr(options, field.name)
-        for field in fields(options)
-        if field.name not in left_out
-    }
+    choices = {**options.choices(), **{name: str(getattr(options, name)) for name in PICTURES}}
     written: dict[Path, Path] = {}
     for number, (image, beside) in enumerate(files.items()):
         pictures: dict[str, Any] = {
@@ -119,7 +114,7 @@ def _tasks(files: dict[Path, dict[str, Path]], options: MeasureOptions) -> Itera
                 )
         given: dict[str, Any] = {**beside, **pictures}
         own = replace(options, image=image, out=None, **given)
-        yield Task(key_of(number, image, beside, plain), image, partial(measured, own))
+        yield Task(key_of(number, image, beside, choices), image, partial(measured, own))
 
 
 def _picture(given: Path | None, image: Path) -> Path | None:
@@ -131,22 +126,20 @@ def _picture(given: Path | None, image: Path) -> Path | None:
     return given / f"{image.stem}.png"
 
 
-def measured(options: MeasureOptions) -> Outcome:
-    """Outcome of one image, in a worker with one thread."""
+def measured(options: MeasureOptions) -> ImageResult:
+    """ImageResult of one image, in a worker with one thread."""
     cv2.setNumThreads(1)
     try:
         measurement = measure_files(options)
     except InputError as error:
-        return Outcome(0, None, str(error))
+        return ImageResult(0, None, str(error))
     except OSError as error:
-        return Outcome(0, None, f"{error.filename or options.image}: {error.strerror or error}")
+        return ImageResult(0, None, f"{error.filename or options.image}: {error.strerror or error}")
     except Exception as error:
-        return Outcome(0, None, f"{options.image}: {type(error).__name__}: {error}")
+        return ImageResult(0, None, f"{options.image}: {type(error).__name__}: {error}")
     frame = to_frame(measurement, flags=options.flags)
     frame.insert(0, "image", str(options.image))
-    content = io.BytesIO()
-    frame.to_parquet(content, index=False)
-    return Outcome(len(frame), content.getvalue())
+    return ImageResult(len(frame), encode_parquet(frame, about_table(options, frame)))
 
 
 def _tell_pairs(images: int, companions: dict[str, Companion], failures: dict[Path, str]) -> None:

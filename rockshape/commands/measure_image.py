@@ -3,6 +3,7 @@
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from rockshape.commands.measure_options import MeasureOptions
 from rockshape.commands.summary import summarise
@@ -16,6 +17,10 @@ from rockshape.measurement import Measurement, to_frame
 from rockshape.method import find_method
 from rockshape.pipeline import measure
 from rockshape.report.overlay import overlay
+from rockshape.table.provenance import provenance_of
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 PAGES = (".html", ".htm")
 
@@ -32,8 +37,18 @@ def measure_image(options: MeasureOptions) -> None:
     if options.out is None:
         print(frame.to_csv(index=False, float_format="%.9g"), end="")
     else:
-        write_table(options.out, frame)
+        write_table(options.out, frame, about=about_table(options, frame))
     print(summarise(measurement), file=sys.stderr)
+
+
+def about_table(options: MeasureOptions, frame: "pd.DataFrame") -> dict[str, Any]:
+    """What a table's file tells about it."""
+    return provenance_of(
+        find_method(options.method),
+        list(frame.columns),
+        options=options.choices(),
+        inputs=options.inputs(),
+    ).to_dict()
 
 
 def measure_files(options: MeasureOptions) -> Measurement:
@@ -75,15 +90,7 @@ def measure_files(options: MeasureOptions) -> Measurement:
 
 def _check_outputs(options: MeasureOptions) -> None:
     """Raises: InputError for an output that cannot be written, is an input or is named twice."""
-    inputs = (
-        options.image,
-        options.range,
-        options.right,
-        options.camera,
-        options.given_labels,
-        options.ignore,
-    )
-    taken = [path.resolve() for path in inputs if path is not None]
+    taken = [path.resolve() for path in options.inputs().values()]
     for path in _outputs(options):
         if path.resolve() in taken:
             raise InputError(f"{path}: expected a file of its own, found one named before")

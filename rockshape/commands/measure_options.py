@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from rockshape.errors import InputError
 from rockshape.point_grid.range_kinds import RangeKind
@@ -56,3 +57,23 @@ class MeasureOptions:
             raise InputError(f"{alone}: expected --camera-height and --tilt together, found one")
         height_m = parse_length(self.camera_height, what="--camera-height", example="1.5m")
         return LevelGround(height_m, self.tilt)
+
+    def choices(self) -> dict[str, Any]:
+        """What was chosen beside the files, by the options' names."""
+        names = (
+            "range_kind", "range_unit", "camera_view", "pieces", "max_pixels", "find", "method",
+            "descriptors", "sizes", "scale", "camera_height", "tilt", "flags",
+        )  # fmt: skip
+        return {name: getattr(self, name) for name in names}
+
+    def inputs(self) -> dict[str, Path]:
+        """Files that are read, by what they are."""
+        files = {
+            "image": self.image,
+            "labels": self.given_labels,
+            "range": self.range,
+            "right": self.right,
+            "camera": self.camera,
+            "ignore": self.ignore,
+        }
+        return {role: path for role, path in files.items() if path is not None}

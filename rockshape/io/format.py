@@ -5,7 +5,7 @@ or any other exception, for a file that it cannot decode: the registry turns eit
 that names the file.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NoReturn
@@ -156,6 +156,8 @@ class TableFormat(Format):
 
     kind: ClassVar[Kind] = "table"
     write: "Callable[[pd.DataFrame], bytes]" = cannot_write
+    # with what is known about the table within; None where that goes into a file beside it
+    write_described: "Callable[[pd.DataFrame, Mapping[str, Any]], bytes] | None" = None
 
 
 def suffix_of(path: Path) -> str:

@@ -53,7 +53,8 @@ def test_a_folder_becomes_one_table_and_a_bad_file_stops_nothing(folder, capsys)
     assert run("photos/p2.png", "--labels", "masks/p2_mask.png", *SCALE, "--out", "one.csv") == 0
     own = table[table["image"] == "photos/p2.png"].drop(columns="image").reset_index(drop=True)
     pd.testing.assert_frame_equal(own, pd.read_csv("one.csv"), check_dtype=False)
-    assert {path.name for path in folder.iterdir()} == {"photos", "masks", "t.csv", "one.csv"}
+    tables = {"t.csv", "t.csv.meta.json", "one.csv", "one.csv.meta.json"}
+    assert {path.name for path in folder.iterdir()} == {"photos", "masks", *tables}
 
 
 @pytest.mark.parametrize("out", ["t.csv", "t.json", "t.parquet", "parts"])

@@ -1,0 +1,1 @@
+"""Table of rocks as files have it: what its columns mean, and where it comes from."""

@@ -13,7 +13,7 @@ from tools import doc_blocks
 from tools.import_graph import PACKAGES, ROOT
 
 DOCS = ROOT / "docs"
-PAGES = [ROOT / "README.md", *sorted(DOCS.glob("*.md"))]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(DOCS.glob("*.md"))]
 SCRIPTS = [(page, text) for page in PAGES for text in doc_blocks.tested_scripts(page)]
 OWN_TEST = {"own-measures.md"}  # tests/validation/plugin runs it
 PYRIGHT = Path(sys.executable).with_name("basedpyright")

@@ -103,7 +103,7 @@ BATCHES_CASE = Case(
     name="batches",
     what="folders of images with masks to one table and its summary; ellipses, two processes",
     run=batches,
-    smallest={"photographs": 3, "frames": 6},
+    smallest={"photographs": 1, "frames": 2},
     threads=JOBS,
     slow=True,
 )

@@ -118,5 +118,5 @@ def _write(options: MeasureOptions, measurement: Measurement, encoded: bytes | N
     if options.report is not None:
         from rockshape.report.page import render_page  # noqa: PLC0415 - brings Jinja
 
-        page = render_page(options.image.name, measurement.observation.image, measurement)
+        page = render_page(options.image.name, measurement)
         write_bytes(options.report, page.encode())

@@ -144,7 +144,7 @@ def _average(average: Network, network: Network, step: int) -> None:
 
 
 def _has_fast_bfloat16() -> bool:
-    return bool(torch.cpu._is_amx_tile_supported())
+    return bool(torch.cpu._is_amx_tile_supported() or torch.cpu._is_avx512_bf16_supported())
 
 
 def _resumed(checkpoint: Path, parts: Mapping[str, Any]) -> int:

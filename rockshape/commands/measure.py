@@ -158,7 +158,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--labels-out",
         type=Path,
         metavar="FILE",
-        help="label image of the rocks measured: PNG or TIFF, 16 bits",
+        help="labels of the rocks measured: PNG or TIFF of 16 bits, COCO (.json) or GeoJSON",
     )
     outputs.add_argument(
         "--overlay",

@@ -121,14 +121,16 @@ class FormatRegistry(Generic[F]):
             raise InputError(f"{path}: {reason_of(error)}") from error
 
     def for_writing(self, path: Path) -> F:
-        """Return the format that a path's suffix names.
+        """Return the format that a path's suffix names, first of all by its first suffix.
 
         Raises: InputError where there is none or the file cannot be written.
         """
         writable = [each for each in self.formats if each.writable]
         suffixes = dict.fromkeys(suffix for each in writable for suffix in each.suffixes)
         check_writable(path, suffixes=suffixes)
-        return next(each for each in writable if suffix_of(path) in each.suffixes)
+        suffix = suffix_of(path)
+        named = [each for each in writable if suffix in each.suffixes]
+        return min(named, key=lambda each: each.suffixes.index(suffix))
 
 
 IMAGES = FormatRegistry(ImageFormat, "an image", "rockshape.io.images")

@@ -4,18 +4,24 @@ Source: the data format of the COCO challenges, https://cocodataset.org/#format-
 of one image, whose annotations name none.
 """
 
+import json
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from rockshape.errors import InputError
 from rockshape.io.decoding.coco_masks import entry_of
 from rockshape.io.decoding.json_text import as_number, load_json
 from rockshape.io.decoding.outlined import collect
+from rockshape.io.encoding.pixel_rings import pixel_rings, signed_area
 from rockshape.io.format import ImageInfo, LabelFormat
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from rockshape.io.files import InputFile
-    from rockshape.rock.instances import Instances
+    from rockshape.rock.instances import Instance, Instances
 
 EXPECTED = "COCO annotations (JSON with images and annotations)"
 
@@ -82,10 +88,53 @@ def _found(content: object) -> str:
     return f"a JSON {type(content).__name__}"
 
 
+def write_coco(instances: "Instances") -> bytes:
+    """COCO of one image and one class, `rock`; the mask is told exactly.
+
+    A rock's segmentation is polygons of pixel corners, or run lengths where it has a hole.
+    """
+    rows, cols = instances.shape
+    content = {
+        "images": [{"id": 1, "width": cols, "height": rows, "file_name": ""}],
+        "categories": [{"id": 1, "name": "rock"}],
+        "annotations": [_annotation(each, (rows, cols)) for each in instances],
+    }
+    return json.dumps(content).encode()
+
+
+def _annotation(instance: "Instance", shape: tuple[int, int]) -> dict[str, Any]:
+    rows, cols = instance.window
+    corner = cols.start, rows.start
+    rings = pixel_rings(instance.mask)
+    segmentation: Any = [(ring + corner).ravel().tolist() for ring in rings]
+    if any(signed_area(ring) < 0 for ring in rings):
+        whole = np.zeros(shape, dtype=bool)
+        whole[instance.window] = instance.mask
+        segmentation = {"size": list(shape), "counts": _run_lengths(whole)}
+    return {
+        "id": instance.id,
+        "image_id": 1,
+        "category_id": 1,
+        "segmentation": segmentation,
+        "area": int(np.count_nonzero(instance.mask)),
+        "bbox": [*corner, cols.stop - cols.start, rows.stop - rows.start],
+        "iscrowd": 0,
+    }
+
+
+def _run_lengths(mask: "NDArray[np.bool_]") -> list[int]:
+    """Lengths of the runs down the columns, that of the ground first."""
+    values = mask.ravel(order="F")
+    starts = np.flatnonzero(np.diff(values, prepend=False))
+    lengths: list[int] = np.diff(starts, prepend=0, append=mask.size).tolist()
+    return lengths
+
+
 FORMAT = LabelFormat(
     name="COCO",
     suffixes=(".json",),
     summary="JSON with images and annotations: polygons, run lengths; no crowds",
     tested_with="pycocotools, COCO data format",
     read=read_coco,
+    write=write_coco,
 )

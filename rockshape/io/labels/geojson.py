@@ -3,17 +3,23 @@
 Source: RFC 7946, sections 3.1 to 3.3 and 4.
 """
 
+import json
 import re
 from typing import TYPE_CHECKING, Any
+
+import cv2
+import numpy as np
 
 from rockshape.errors import InputError
 from rockshape.io.decoding.json_text import load_json
 from rockshape.io.decoding.outlined import Entry, UnreadableError, collect, polygons_mask
+from rockshape.io.encoding.pixel_rings import pixel_rings, signed_area
 from rockshape.io.format import ImageInfo, LabelFormat
 
 if TYPE_CHECKING:
+    from rockshape.io.encoding.pixel_rings import Ring
     from rockshape.io.files import InputFile
-    from rockshape.rock.instances import Instances
+    from rockshape.rock.instances import Instance, Instances
 
 EXPECTED = "GeoJSON features in pixel coordinates"
 GEOMETRIES = ("Polygon", "MultiPolygon", "GeometryCollection")
@@ -81,6 +87,42 @@ def _polygons(geometry: object) -> list[Any]:
     return polygons
 
 
+def write_geojson(instances: "Instances") -> bytes:
+    """Feature a rock, with polygons of pixel corners that hold exactly its pixels."""
+    features = [
+        {
+            "type": "Feature",
+            "id": each.id,
+            "properties": {"id": each.id},
+            "geometry": {"type": "MultiPolygon", "coordinates": _coordinates(each)},
+        }
+        for each in instances
+    ]
+    return json.dumps({"type": "FeatureCollection", "features": features}).encode()
+
+
+def _coordinates(instance: "Instance") -> list[Any]:
+    """Polygons, each its outer ring and those of its holes, closed."""
+    rows, cols = instance.window
+    rings = pixel_rings(instance.mask)
+    outer = [ring for ring in rings if signed_area(ring) > 0]
+    holes = [ring for ring in rings if signed_area(ring) < 0]
+    polygons = [[ring] for ring in outer]
+    for hole in holes:
+        around = [each for each in polygons if _holds(each[0], hole[0])]
+        min(around, key=lambda each: signed_area(each[0])).append(hole)
+    corner = cols.start, rows.start
+    return [
+        [(np.vstack([ring, ring[:1]]) + corner).tolist() for ring in polygon]
+        for polygon in polygons
+    ]
+
+
+def _holds(ring: "Ring", corner: "Ring") -> bool:
+    """Whether a ring goes round a corner of another or touches it."""
+    return cv2.pointPolygonTest(ring.astype(np.float32), corner.astype(float).tolist(), False) >= 0
+
+
 FORMAT = LabelFormat(
     name="GeoJSON",
     suffixes=(".geojson", ".json"),
@@ -88,4 +130,5 @@ FORMAT = LabelFormat(
     tested_with="RFC 7946, QuPath export",
     sniff=is_geojson,
     read=read_geojson,
+    write=write_geojson,
 )

@@ -1,0 +1,1 @@
+"""Encoding of masks for files that hold outlines."""

@@ -164,7 +164,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--overlay",
         type=Path,
         metavar="FILE",
-        help="image with outlines, ellipses and numbers: PNG, JPEG or TIFF",
+        help="image with outlines, ellipses and numbers: PNG, JPEG, TIFF or SVG",
     )
     outputs.add_argument(
         "--report", type=Path, metavar="FILE", help="HTML page with overlay and table"

@@ -17,6 +17,7 @@ from rockshape.measurement import Measurement, to_frame
 from rockshape.method import find_method
 from rockshape.pipeline import measure
 from rockshape.report.overlay import overlay
+from rockshape.report.vector_overlay import SUFFIX, vector_overlay
 from rockshape.table.provenance import provenance_of
 
 if TYPE_CHECKING:
@@ -100,7 +101,7 @@ def _check_outputs(options: MeasureOptions) -> None:
     if options.labels_out is not None:
         LABELS.for_writing(options.labels_out)
     if options.overlay is not None:
-        IMAGES.for_writing(options.overlay)
+        _check_overlay(options.overlay)
     if options.report is not None:
         check_writable(options.report, suffixes=PAGES)
 
@@ -114,9 +115,23 @@ def _write(options: MeasureOptions, measurement: Measurement, encoded: bytes | N
     if options.labels_out is not None and encoded is not None:
         write_bytes(options.labels_out, encoded)
     if options.overlay is not None:
-        write_image(options.overlay, overlay(measurement.observation.image, measurement))
+        _write_overlay(options.overlay, measurement)
     if options.report is not None:
         from rockshape.report.page import render_page  # noqa: PLC0415 - brings Jinja
 
         page = render_page(options.image.name, measurement)
         write_bytes(options.report, page.encode())
+
+
+def _check_overlay(path: Path) -> None:
+    if path.suffix.lower() == SUFFIX:
+        check_writable(path, suffixes=(SUFFIX,))
+    else:
+        IMAGES.for_writing(path)
+
+
+def _write_overlay(path: Path, measurement: Measurement) -> None:
+    if path.suffix.lower() == SUFFIX:
+        write_bytes(path, vector_overlay(measurement).encode())
+    else:
+        write_image(path, overlay(measurement.observation.image, measurement))

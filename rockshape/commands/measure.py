@@ -170,6 +170,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--report", type=Path, metavar="FILE", help="HTML page with overlay and table"
     )
 
+    outputs.add_argument(
+        "--json", action="store_true", help="print the table as JSON where --out names no file"
+    )
+    outputs.add_argument(
+        "--quiet", action="store_true", help="tell nothing on standard error but errors"
+    )
     batch = parser.add_argument_group("many images")
     batch.add_argument(
         "--jobs", type=int, metavar="N", help="processes (default: one for each processor)"

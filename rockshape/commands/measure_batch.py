@@ -52,7 +52,8 @@ def measure_batch(given: Sequence[str], options: MeasureOptions, batch: BatchOpt
         if (path := getattr(options, name)) is not None
     }
     files, failures = paired(images, companions)
-    _tell_pairs(len(files) + len(failures), companions, failures)
+    if not options.quiet:
+        _tell_pairs(len(files) + len(failures), companions, failures)
     tasks = list(_tasks(files, options))
     joined = out.suffix != ""
     jobs = default_jobs() if batch.jobs is None else batch.jobs
@@ -64,14 +65,19 @@ def measure_batch(given: Sequence[str], options: MeasureOptions, batch: BatchOpt
     with ExitStack() as stack:
         executor = stack.enter_context(place)
         there = sum(parts.has(task.key) for task in tasks)
-        bar = stack.enter_context(closing(Progress(len(tasks), there, unit="image")))
+        bar = None
+        if not options.quiet:
+            bar = stack.enter_context(closing(Progress(len(tasks), there, unit="image")))
 
         def done(task: Task, outcome: ImageResult) -> None:
-            bar.advance(f"{task.image.name}: {outcome.failure or f'{outcome.rocks} rocks'}")
+            if bar is not None:
+                bar.advance(f"{task.image.name}: {outcome.failure or f'{outcome.rocks} rocks'}")
 
         failures |= run_batch(tasks, executor, parts, done)
     keys = [task.key for task in tasks if parts.has(task.key)]
-    _tell_end(len(keys), there, sum(parts.rocks(key) for key in keys), failures)
+    if not options.quiet:
+        _tell_end(len(keys), there, sum(parts.rocks(key) for key in keys))
+    _tell_failures(failures)
     if joined:
         if keys:
             write_joined(out, parts.tables(keys), about=parts.about(keys))
@@ -149,9 +155,12 @@ def _tell_pairs(images: int, companions: dict[str, Companion], failures: dict[Pa
     print(told + lacking, file=sys.stderr)
 
 
-def _tell_end(images: int, there: int, rocks: int, failures: dict[Path, str]) -> None:
+def _tell_end(images: int, there: int, rocks: int) -> None:
     before = f" ({there} of them before)" if there else ""
     print(f"{images} images measured{before}; {rocks} rocks", file=sys.stderr)
+
+
+def _tell_failures(failures: dict[Path, str]) -> None:
     if failures:
         print(f"{len(failures)} images failed:", file=sys.stderr)
         for told in failures.values():

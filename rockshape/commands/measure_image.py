@@ -13,6 +13,7 @@ from rockshape.inputs.scale import with_scale
 from rockshape.io import write_image, write_table
 from rockshape.io.files import check_writable, write_bytes
 from rockshape.io.registry import IMAGES, LABELS, TABLES
+from rockshape.io.tables.json import encode_json
 from rockshape.measurement import Measurement, to_frame
 from rockshape.method import find_method
 from rockshape.pipeline import measure
@@ -35,11 +36,14 @@ def measure_image(options: MeasureOptions) -> None:
     _check_outputs(options)
     measurement = measure_files(options)
     frame = to_frame(measurement, flags=options.flags)
-    if options.out is None:
-        print(frame.to_csv(index=False, float_format="%.9g"), end="")
-    else:
+    if options.out is not None:
         write_table(options.out, frame, about=about_table(options, frame))
-    print(summarise(measurement), file=sys.stderr)
+    elif options.json:
+        print(encode_json(frame).decode())
+    else:
+        print(frame.to_csv(index=False, float_format="%.9g"), end="")
+    if not options.quiet:
+        print(summarise(measurement), file=sys.stderr)
 
 
 def about_table(options: MeasureOptions, frame: "pd.DataFrame") -> dict[str, Any]:

@@ -39,6 +39,8 @@ class MeasureOptions:
     labels_out: Path | None
     overlay: Path | None
     report: Path | None
+    json: bool
+    quiet: bool
 
     @property
     def given_labels(self) -> Path | None:

@@ -1,5 +1,6 @@
 """`rockshape measure` of many images: pairing, one table, bad files, resuming."""
 
+import json
 import os
 import signal
 import subprocess
@@ -55,6 +56,17 @@ def test_a_folder_becomes_one_table_and_a_bad_file_stops_nothing(folder, capsys)
     pd.testing.assert_frame_equal(own, pd.read_csv("one.csv"), check_dtype=False)
     tables = {"t.csv", "t.csv.meta.json", "one.csv", "one.csv.meta.json"}
     assert {path.name for path in folder.iterdir()} == {"photos", "masks", *tables}
+
+
+def test_quiet_tells_what_failed_and_nothing_else(capsys) -> None:
+    assert run("photos", "--labels", "masks", "--out", "t.csv", "--jobs", 1, "--quiet") == 0
+    told = capsys.readouterr().err.splitlines()
+    assert told[0] == "1 images failed:"
+    assert len(told) == 2
+    assert run("photos/p0.png", "--labels", "masks/p0_mask.png", "--quiet", "--json") == 0
+    printed = capsys.readouterr()
+    assert printed.err == ""
+    assert [row["rock"] for row in json.loads(printed.out)] == [1]
 
 
 @pytest.mark.parametrize("out", ["t.csv", "t.json", "t.parquet", "parts"])

@@ -22,6 +22,7 @@ PICTURES = {
     "range_noise": "estimated over true range noise by ground, from benchmarks/results.json",
     "realism": "made pictures beside photographs of their kind",
     "ranges": "range of one scene by each sensor, and its error",
+    "samples": "grain-size curves of two photographs of gravel",
     "stereo_model": "depth error by range and its autocorrelation, model and matcher",
 }
 

@@ -6,18 +6,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import pandas as pd
-
-from rockshape.errors import InputError, did_you_mean
+from rockshape.commands.tables import TABLE, groups, joined
+from rockshape.errors import InputError
 from rockshape.io.files import check_writable, write_bytes
-from rockshape.io.tables.reading import read_table
 from rockshape.samples.comparison import Comparison, compare
 from rockshape.samples.sample import sample_of
 from rockshape.samples.size_column import size_column
 from rockshape.samples.summarising import summary_of
 from rockshape.samples.summary import Summary
-
-TABLE = "table"  # column that tells the file
 
 
 @dataclass(frozen=True)
@@ -41,7 +37,7 @@ def summarise_tables(options: SummariseOptions) -> None:
     Raises: InputError for tables and columns that cannot be used, before anything is written.
     """
     _check(options)
-    table = _joined(options.tables)
+    table = joined(options.tables)
     column = size_column(table, options.size)
     least_m = None if options.least is None else options.least / 1000
     if options.area is not None and column.unit != "mm":
@@ -52,7 +48,9 @@ def summarise_tables(options: SummariseOptions) -> None:
             area_m2=options.area,
             least_m=least_m,
         )
-        for name, part in _groups(table, options).items()
+        for name, part in groups(
+            table, options.group or (TABLE if options.compare else None)
+        ).items()
     }
     comparison = _comparison(summaries) if options.compare else None
     text = _json(summaries, comparison) if options.json else _text(summaries, comparison)
@@ -68,27 +66,6 @@ def _check(options: SummariseOptions) -> None:
     for name, value in (("--least", options.least), ("--area", options.area)):
         if value is not None and not 0 < value < math.inf:
             raise InputError(f"{name}: expected a number above 0, found {value:g}")
-
-
-def _joined(paths: list[Path]) -> pd.DataFrame:
-    """All rows, with the name of their file."""
-    names = [path.name for path in paths]
-    told = names if len(set(names)) == len(names) else [str(path) for path in paths]
-    tables = [
-        read_table(path).assign(**{TABLE: name}) for path, name in zip(paths, told, strict=True)
-    ]
-    return pd.concat(tables, ignore_index=True)
-
-
-def _groups(table: pd.DataFrame, options: SummariseOptions) -> dict[str, pd.DataFrame]:
-    """Rows by group; all of them under one name without groups."""
-    group = options.group or (TABLE if options.compare else None)
-    if group is None:
-        return {" + ".join(dict.fromkeys(table[TABLE])): table}
-    if group not in table:
-        hint = did_you_mean(group, list(table.columns))
-        raise InputError(f"--group: expected a column of the tables, found {group!r}{hint}")
-    return {str(name): rows for name, rows in table.groupby(group, sort=True, dropna=False)}
 
 
 def _comparison(summaries: dict[str, Summary]) -> Comparison:

@@ -7,6 +7,7 @@ import numpy as np
 
 from rockshape.errors import InputError
 from rockshape.measurement import AXES, Measurement
+from rockshape.samples.form_classes import ZINGG_BOUND
 from rockshape.samples.size_column import size_column
 
 if TYPE_CHECKING:
@@ -14,7 +15,6 @@ if TYPE_CHECKING:
 
 _INK, _FILL = "#7a7a7a", "#3b82c4"  # to be seen on white and on black
 _MIN_ROCKS = 5
-_ZINGG = 2 / 3
 
 
 def charts(measurement: Measurement) -> str:
@@ -91,8 +91,8 @@ def _log_ticks(axes: "Axes") -> None:
 def _zingg(axes: "Axes", axes_m: np.ndarray) -> None:
     a, b, c = axes_m.T
     axes.plot(c / b, b / a, "o", color=_FILL, markersize=3, alpha=0.7)
-    axes.axvline(_ZINGG, color=_INK, linewidth=0.8)
-    axes.axhline(_ZINGG, color=_INK, linewidth=0.8)
+    axes.axvline(ZINGG_BOUND, color=_INK, linewidth=0.8)
+    axes.axhline(ZINGG_BOUND, color=_INK, linewidth=0.8)
     for x, y, word in (
         (0.33, 0.95, "disc"), (0.83, 0.95, "spheroid"), (0.33, 0.03, "blade"), (0.83, 0.03, "rod"),
     ):  # fmt: skip

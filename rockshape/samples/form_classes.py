@@ -25,7 +25,7 @@ SNEED_FOLK = (
 )
 KRUMBEIN = tuple(f"{tenth / 10:.1f}" for tenth in range(1, 10))
 
-_ZINGG_BOUND = 2 / 3
+ZINGG_BOUND = 2 / 3
 _POWERS_BOUNDS = (0.17, 0.25, 0.35, 0.49, 0.70)
 _FLATTEST = (0.3, 0.5, 0.7)  # S/L that part very …, plain, compact … and compact
 _THIRDS = (1 / 3, 2 / 3)  # of (L − I)/(L − S), from platy to elongate
@@ -35,7 +35,7 @@ Classes = NDArray[np.int64]
 
 def zingg(a: Floats, b: Floats, c: Floats) -> Classes:
     """Class (n,) in `ZINGG` of axes a ≥ b ≥ c: by b/a and c/b, parted at 2/3."""
-    long_enough, thick = b / a >= _ZINGG_BOUND, c / b >= _ZINGG_BOUND
+    long_enough, thick = b / a >= ZINGG_BOUND, c / b >= ZINGG_BOUND
     return np.where(long_enough, np.where(thick, 1, 0), np.where(thick, 3, 2))
 
 

@@ -1,0 +1,91 @@
+"""Plot of samples: grain-size curves with their intervals, Zingg's diagram and roundness."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rockshape.samples.form_classes import ZINGG_BOUND
+from rockshape.samples.percentiles import bootstrap_percentiles, interval, percentiles
+from rockshape.samples.sample import Sample
+from rockshape.samples.weighting import Weighting
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+PERCENTS = tuple(float(percent) for percent in range(1, 100))
+AXES = ("axis_a_m", "axis_b_m", "axis_c_m")
+_DRAWS = 300
+
+
+def plot_samples(samples: Mapping[str, Sample], weighting: Weighting) -> "Figure":
+    """Figure of samples by name: what is finer by number, area or weight, and forms if known."""
+    from matplotlib.figure import Figure  # noqa: PLC0415 - half a second that few need
+
+    panels = [_curves]
+    panels += [_zingg] if any(len(_forms(each)) for each in samples.values()) else []
+    panels += [_roundness] if any(len(_rounded(each)) for each in samples.values()) else []
+    figure = Figure(figsize=(5 * len(panels), 4.2), layout="constrained")
+    for axes, draw in zip(np.atleast_1d(figure.subplots(1, len(panels))), panels, strict=True):
+        draw(axes, samples, weighting)
+    return figure
+
+
+def _curves(axes: "Axes", samples: Mapping[str, Sample], weighting: Weighting) -> None:
+    """Share of the weight below each size, with the 95 % bootstrap band of each percentile."""
+    for name, sample in samples.items():
+        if len(sample) < 2:
+            continue
+        draws = bootstrap_percentiles(
+            sample.sizes, weighting.power, PERCENTS, sd=sample.sds, draws=_DRAWS
+        )
+        low, high = interval(draws)
+        middle = percentiles(sample.sizes, weighting.weights(sample.sizes), PERCENTS)
+        (line,) = axes.plot(middle, PERCENTS, label=f"{name}, {len(sample)} rocks")
+        axes.fill_betweenx(PERCENTS, low, high, alpha=0.2, color=line.get_color(), linewidth=0)
+    column = next(iter(samples.values())).column
+    axes.set_xscale("log")
+    words = column.name.removesuffix(f"_{column.unit}").replace("_", " ")
+    axes.set(
+        xlabel=f"{words}, {column.unit}".strip(", "),
+        ylabel=f"finer, % by {weighting.name} ({weighting.field_name})",
+        ylim=(0, 100),
+    )
+    axes.grid(visible=True, which="both", alpha=0.3)
+    axes.legend(fontsize=8)
+
+
+def _zingg(axes: "Axes", samples: Mapping[str, Sample], weighting: Weighting) -> None:  # noqa: ARG001
+    for name, sample in samples.items():
+        a, b, c = _forms(sample).T
+        axes.plot(c / b, b / a, "o", markersize=4, alpha=0.7, label=name)
+    axes.axvline(ZINGG_BOUND, color="grey", linewidth=0.8)
+    axes.axhline(ZINGG_BOUND, color="grey", linewidth=0.8)
+    for x, y, word in ((0.33, 0.97, "disc"), (0.83, 0.97, "spheroid"),
+                       (0.33, 0.03, "blade"), (0.83, 0.03, "rod")):  # fmt: skip
+        axes.text(x, y, word, ha="center", va="top" if y > 0.5 else "bottom", color="grey")
+    axes.set(xlim=(0, 1), ylim=(0, 1), xlabel="c/b", ylabel="b/a", title="form (Zingg)")
+
+
+def _roundness(axes: "Axes", samples: Mapping[str, Sample], weighting: Weighting) -> None:  # noqa: ARG001
+    edges = np.linspace(0, 1, 11)
+    for name, sample in samples.items():
+        values = _rounded(sample)
+        if len(values):
+            shares: Any = 100 * np.histogram(values, edges)[0] / len(values)
+            axes.stairs(shares, edges, label=name)
+    axes.set(xlim=(0, 1), xlabel="roundness (Wadell)", ylabel="rocks, %", title="roundness")
+
+
+def _forms(sample: Sample) -> np.ndarray:
+    """Axes (n, 3) of the rocks that have all three."""
+    if not all(name in sample.table for name in AXES):
+        return np.empty((0, 3))
+    return sample.table[list(AXES)].dropna().to_numpy(np.float64)
+
+
+def _rounded(sample: Sample) -> np.ndarray:
+    if "roundness" not in sample.table:
+        return np.empty(0)
+    return sample.table["roundness"].dropna().to_numpy(np.float64)

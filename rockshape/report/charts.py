@@ -7,6 +7,7 @@ import numpy as np
 
 from rockshape.errors import InputError
 from rockshape.measurement import AXES, Measurement
+from rockshape.samples.axis_ticks import log_ticks
 from rockshape.samples.form_classes import ZINGG_BOUND
 from rockshape.samples.size_column import size_column
 
@@ -72,20 +73,10 @@ def _histogram(axes: "Axes", title: str, values: np.ndarray, *, log: bool) -> No
     spaced = np.geomspace if log and low < high else np.linspace
     axes.hist(values, bins=spaced(low, high, bins + 1).tolist(), color=_FILL)
     if log and low < high:
-        _log_ticks(axes)
+        log_ticks(axes)
     axes.set_title(title, fontsize=10)
     axes.spines[["top", "right"]].set_visible(False)
     axes.tick_params(labelsize=8)
-
-
-def _log_ticks(axes: "Axes") -> None:
-    """Logarithmic axis with plain numbers at 1, 2 and 5 times powers of ten."""
-    from matplotlib.ticker import LogLocator, NullLocator, ScalarFormatter  # noqa: PLC0415
-
-    axes.set_xscale("log")
-    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-    axes.xaxis.set_minor_locator(NullLocator())
-    axes.xaxis.set_major_formatter(ScalarFormatter())
 
 
 def _zingg(axes: "Axes", axes_m: np.ndarray) -> None:

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from rockshape.samples.axis_ticks import log_ticks
 from rockshape.samples.form_classes import ZINGG_BOUND
 from rockshape.samples.percentiles import bootstrap_percentiles, interval, percentiles
 from rockshape.samples.sample import Sample
@@ -45,14 +46,14 @@ def _curves(axes: "Axes", samples: Mapping[str, Sample], weighting: Weighting) -
         (line,) = axes.plot(middle, PERCENTS, label=f"{name}, {len(sample)} rocks")
         axes.fill_betweenx(PERCENTS, low, high, alpha=0.2, color=line.get_color(), linewidth=0)
     column = next(iter(samples.values())).column
-    axes.set_xscale("log")
+    log_ticks(axes)
     words = column.name.removesuffix(f"_{column.unit}").replace("_", " ")
     axes.set(
         xlabel=f"{words}, {column.unit}".strip(", "),
         ylabel=f"finer, % by {weighting.name} ({weighting.field_name})",
         ylim=(0, 100),
     )
-    axes.grid(visible=True, which="both", alpha=0.3)
+    axes.grid(visible=True, alpha=0.3)
     axes.legend(fontsize=8)
 
 

@@ -14,7 +14,8 @@ from rockshape.ellipse.moments import moment_ellipse
 from rockshape.ellipsoid import Ellipsoid, EllipsoidFit, fit_ellipsoid
 from rockshape.outline.edge import edge_of
 from rockshape.outline.extent import MIN_WIDTH_PX, feret_diameters
-from rockshape.outline.resample import PIXEL_SIGMA, form_outline, pixel_smooth, pixel_steps
+from rockshape.outline.form import Form, form_of
+from rockshape.outline.resample import pixel_smooth, pixel_steps
 from rockshape.outline.trace import trace_outline
 from rockshape.rock.point_fit import PointFit, fit_points
 from rockshape.rock.visibility import touches_border
@@ -82,11 +83,14 @@ class RockView:
         return pixel_smooth(self.edge_px)
 
     @cached_property
+    def form(self) -> Form | None:
+        """The edge's form, at the same share of any rock's size; None for an edge without area."""
+        return form_of(self.edge_px, staircase=not self.has_subpixel_edge)
+
+    @cached_property
     def form_outline_px(self) -> NDArray[np.float64]:
-        """The edge's form, the same at every size: (100, 2), evenly."""
-        return form_outline(
-            self.edge_px, least_sigma=0.0 if self.has_subpixel_edge else PIXEL_SIGMA
-        )
+        """The form's outline, (100, 2) evenly; (0, 2) for an edge without area."""
+        return np.empty((0, 2)) if self.form is None else self.form.even_points
 
     @cached_property
     def resolved(self) -> bool:

@@ -22,7 +22,7 @@ to 1000 px on one and the same shape, and a disc scores 12 degrees at a radius o
 from 60 px on; docs/resolution.md has its order and level by size.
 
 Degenerate: NaN for fewer than 17 points, where the triangles would meet behind the point. `robust`
-refuses rocks that the frame cuts or less than 4 px wide.
+leaves contacts out as roundness does, and refuses rocks that the frame cuts or less than 4 px wide.
 
 Source: Fox et al. (2002), equations 6 and 7 and figure 3.
 """
@@ -38,7 +38,7 @@ from rockshape.measures.measure import Measure
 from rockshape.measures.reading import Reason
 from rockshape.outline.form import EVEN_POINTS, Form
 from rockshape.outline.resample import even_outline
-from rockshape.rock.view import RockView
+from rockshape.rock.view import MIN_OUTLINE_SHARE, RockView
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -113,27 +113,37 @@ def _unit_chords(outline: NDArray[np.float64], nearest: int, farthest: int) -> N
     return chords
 
 
-def angularity_beyond_form(form: Form, *, alpha: int = ALPHA) -> float:
+def angularity_beyond_form(
+    form: Form, own: NDArray[np.bool_] | None = None, *, alpha: int = ALPHA
+) -> float:
     """What the spread of the flattest angles has beyond that of the form's ellipse, in radians.
 
     sqrt(spread² - ellipse's spread²) over 100 even points each, 0 where the ellipse bends as
     unevenly: an ellipse twice as long as wide has a spread of 0.09 that is form and no angularity.
-    The ellipse has the outline's second moments. NaN where there is none.
+    The ellipse has the outline's second moments. own (100,) says which even points are the rock's
+    own outline; all by default. NaN where there is no ellipse or fewer than two of them.
     """
     ellipse = moment_ellipse(form.points)
     if ellipse is None:
         return float("nan")
-    bends, smooth = (
-        flattest_angles_rad(points, alpha=alpha).std(ddof=1)
-        for points in (form.even_points, even_outline(ellipse.ring(_RING), EVEN_POINTS))
-    )
+    angles = flattest_angles_rad(form.even_points, alpha=alpha)
+    angles = angles if own is None else angles[own]
+    ring = even_outline(ellipse.ring(_RING), EVEN_POINTS)
+    smooth = flattest_angles_rad(ring, alpha=alpha).std(ddof=1)
+    if len(angles) < 2:
+        return float("nan")
+    bends = angles.std(ddof=1)
     return float(np.sqrt(max(0.0, bends**2 - smooth**2)))
 
 
 def _read_robust(rock: RockView) -> float | Reason:
     if not rock.resolved:
         return Reason.TOO_SMALL
-    return Reason.DEGENERATE if rock.form is None else angularity_beyond_form(rock.form)
+    if rock.form is None:
+        return Reason.DEGENERATE
+    if rock.outline_share < MIN_OUTLINE_SHARE:
+        return Reason.CONTACTS
+    return angularity_beyond_form(rock.form, rock.is_own(rock.form_outline_px))
 
 
 def _evaluate(rock: RockView) -> float:

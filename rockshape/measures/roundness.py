@@ -22,8 +22,10 @@ the corners is lost. docs/resolution.md has correlation with the truth, bias and
 (`python benchmarks/run.py roundness`). The gate is the rock's width, for corners lie across it
 however long the rock is.
 
-Degenerate: 1 where nothing bends more than the inscribed circle. Refuses rocks that the frame cuts
-or less than 12 px wide.
+Degenerate: 1 where nothing bends more than the inscribed circle. Contacts, edges that neighbours or
+ignored regions have made, are no corners, and are left out with two deviations of the smoothing on
+either side; with less than half of the outline left it refuses. It refuses rocks that the frame
+cuts or less than 12 px wide.
 
 Source: Wadell (1932), Volume, shape, and roundness of rock particles.
 """
@@ -34,7 +36,7 @@ from rockshape.measures.measure import Measure
 from rockshape.measures.reading import Reason
 from rockshape.outline.inscribed_circle import inscribed_circle
 from rockshape.outline.roundness import wadell_roundness
-from rockshape.rock.view import RockView
+from rockshape.rock.view import MIN_OUTLINE_SHARE, RockView
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -47,7 +49,11 @@ MIN_POINTS = 30
 def _read_robust(rock: RockView) -> float | Reason:
     if not rock.feret_px[0] >= MIN_WIDTH_PX:
         return Reason.TOO_SMALL
-    return Reason.DEGENERATE if rock.form is None else wadell_roundness(rock.form)
+    if rock.form is None:
+        return Reason.DEGENERATE
+    if rock.outline_share < MIN_OUTLINE_SHARE:
+        return Reason.CONTACTS
+    return wadell_roundness(rock.form, rock.is_own(rock.form.points))
 
 
 def _draw() -> "Figure":

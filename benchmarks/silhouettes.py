@@ -11,8 +11,7 @@ from synth.shapes.outline import axis_ratio
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-TUNED_BELOW = 1_000  # seeds for tuning
-REPORTED_FROM = 10_000
+REPORTED_FROM = 10_000  # seeds below are for tuning
 TURN_RAD = np.linspace(0, 2 * np.pi, 4000, endpoint=False)
 CIRCLE = np.column_stack([np.cos(TURN_RAD), np.sin(TURN_RAD)])
 

@@ -32,8 +32,7 @@ if TYPE_CHECKING:
 
 OUTLINE_COLOUR, ELLIPSE_COLOUR = "#ffd138", "#40b4ff"
 PLACE = ("rock", "row", "col", "area_px", "width_px", "height_px", "truncated", "visible_fraction")
-FOUND = ("branch", "flags", "outline_sd_px")
-FLAGS = (*FOUND, "outline_share")
+FLAGS = ("branch", "flags", "outline_sd_px")
 POINTS = tuple(PointCounts.__dataclass_fields__)
 AXES = ("axis_a_m", "axis_b_m", "axis_c_m")
 # the descriptors' columns, by the fields of the record
@@ -64,10 +63,10 @@ class Rock:
     truncated: bool  # touches the border of the frame, or of its measured part if found by range
     visible_fraction: float  # of the fitted ellipse, in the frame and not behind a nearer rock
     outline_px: NDArray[np.float64]  # (n, 2) as (x, y), the outline that is measured
-    outline_share: float  # of its pixels' edge, that neither a neighbour nor ignored pixels made
     points: PointCounts
     ellipse: Ellipse | None
     ellipsoid: Ellipsoid | None
+    half_axes_m: NDArray[np.float64] | None  # (3,), longest first
     readings: dict[str, Reading]  # by the measures' columns
     descriptors: Descriptors | None = None  # if they were asked for
     sizes: Sizes | None = None  # likewise
@@ -205,10 +204,11 @@ def _columns(
 def to_frame(measurement: Measurement, *, flags: bool = False) -> "pd.DataFrame":
     """A measurement as a table with the columns of `columns`, one row a rock.
 
-    row and col are the centroid of the rock's pixels; axis_a_m >= axis_b_m >= axis_c_m are the
-    half-axes of the fitted ellipsoid in metres. A value that cannot be measured is NaN, and
-    `reason` says why. With `flags`, branch is `range`, `image` or `labels`, flags are separated by
-    `; `, and outline_sd_px is NaN where the outline is the border of the rock's pixels.
+    row and col are the centroid of the rock's pixels; axis_a_m >= axis_b_m >= axis_c_m are
+    half-axes in metres, by `paper` of the fitted ellipsoid, by `robust` of the smallest box round
+    the whole rock. A value that cannot be measured is NaN, and `reason` says why. With `flags`,
+    branch is `range`, `image` or `labels`, flags are separated by `; `, and outline_sd_px is
+    NaN where the outline is the border of the rock's pixels.
     """
     import pandas as pd  # noqa: PLC0415 - it takes as long as all else
 
@@ -227,21 +227,20 @@ def to_frame(measurement: Measurement, *, flags: bool = False) -> "pd.DataFrame"
 
 
 def _found(found: "FoundRock | None") -> dict[str, object]:
-    """How a rock was found, as the columns of FOUND."""
+    """How a rock was found, as the columns of FLAGS."""
     if found is None:
-        return dict(zip(FOUND, ("labels", "", np.nan), strict=True))
+        return dict(zip(FLAGS, ("labels", "", np.nan), strict=True))
     sd_px = np.nan if found.outline is None else found.outline.sd_px
-    return dict(zip(FOUND, (found.branch, "; ".join(found.flags), sd_px), strict=True))
+    return dict(zip(FLAGS, (found.branch, "; ".join(found.flags), sd_px), strict=True))
 
 
 def _row(rock: Rock, found: dict[str, object]) -> dict[str, object]:
     """Everything that is known of a rock, by its column."""
-    half_axes = [np.nan] * 3 if rock.ellipsoid is None else rock.ellipsoid.half_axes_m
+    half_axes = [np.nan] * 3 if rock.half_axes_m is None else rock.half_axes_m
     row: dict[str, object] = {"rock": rock.number, "reason": rock.reason}
     row |= {name: getattr(rock, name) for name in PLACE[1:]}
     row |= dataclasses.asdict(rock.points)
     row |= zip(AXES, half_axes, strict=True)
-    row["outline_share"] = rock.outline_share
     row |= rock.values
     if rock.sizes is not None:
         row |= zip(SIZES, rock.sizes.row(), strict=True)

@@ -22,6 +22,9 @@ from rockshape.rock.view import RockView
 from rockshape.segmentation.finders import FINDERS
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from rockshape.ground import Ground
     from rockshape.observation import Observation, Outline
     from rockshape.segmentation.result import Segmentation
@@ -37,6 +40,7 @@ class Fits:
     ellipse: Ellipse | None
     ellipsoid: Ellipsoid | None
     outline_px: "Outline | None" = None  # that the measures see; None: the rock's edge
+    half_axes_m: "NDArray[np.float64] | None" = None  # (3,), longest first; None: the ellipsoid's
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +72,12 @@ def _published_fits(view: RockView) -> Fits:
 
 
 def _robust_fits(view: RockView) -> Fits:
-    return Fits(view.form_ellipse, view.held_ellipsoid, view.smooth_outline_px)
+    return Fits(
+        view.form_ellipse,
+        view.held_ellipsoid,
+        outline_px=view.smooth_outline_px,
+        half_axes_m=view.body_half_axes_m,
+    )
 
 
 PAPER = Method(

@@ -9,12 +9,11 @@ from numpy.typing import NDArray
 from rockshape.errors import InputError
 from rockshape.measurement import Measurement, Rock
 from rockshape.measures import Reading
-from rockshape.method import Method, find_method
+from rockshape.method import Fits, Method, find_method
 from rockshape.observation import Observation, locate_camera
 from rockshape.outline.descriptors import UNRESOLVED, Descriptors, describe_edge, describe_outline
 from rockshape.point_grid.flying import flying_pixels
 from rockshape.rock.blas_threads import one_blas_thread
-from rockshape.rock.contacts import not_ground
 from rockshape.rock.instances import Instance, Instances, Window
 from rockshape.rock.point_fit import PointCounts
 from rockshape.rock.sizes import Sizes, pixel_on_rock_m, sizes_of
@@ -191,7 +190,6 @@ def _rock(
             whole, fits.ellipse, scene.instances, scene.observation.points_m
         ),
         outline_px=outline_px,
-        outline_share=view.outline_share,
         points=_counts(
             view,
             flying=_flying_on(scene, part),
@@ -199,6 +197,7 @@ def _rock(
         ),
         ellipse=fits.ellipse,
         ellipsoid=fits.ellipsoid,
+        half_axes_m=_half_axes(fits),
         readings=readings,
         descriptors=descriptors if asked.descriptors else None,
         sizes=_sizes(view, descriptors, scene.observation) if asked.sizes else None,
@@ -210,6 +209,18 @@ def _sizes(view: RockView, descriptors: Descriptors, observation: Observation) -
         view, level_ground=observation.level_ground, told_m=observation.pixel_size_m
     )
     return sizes_of(view, descriptors, pixel_m=pixel_m)
+
+
+def _half_axes(fits: Fits) -> NDArray[np.float64] | None:
+    """Half-axes (3,) of a rock, read-only: the method's own, or its ellipsoid's."""
+    half_axes_m = fits.half_axes_m
+    if half_axes_m is None and fits.ellipsoid is not None:
+        half_axes_m = fits.ellipsoid.half_axes_m
+    if half_axes_m is None:
+        return None
+    half_axes_m = half_axes_m.view()
+    half_axes_m.setflags(write=False)
+    return half_axes_m
 
 
 def _flying_on(scene: _Scene, part: Instance) -> NDArray[np.bool_]:
@@ -252,5 +263,4 @@ def _view_rock(scene: _Scene, part: Instance) -> RockView:
         ground=scene.ground,
         frame=scene.frame,
         subpixel_px=part.outline_px,
-        hidden=not_ground(part, scene.instances, scene.frame, scene.observation.ignored),
     )

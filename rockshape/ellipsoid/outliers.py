@@ -38,7 +38,7 @@ def fit_without_outliers(
             break
         distance = np.abs(found.ellipsoid.radial_distance_m(points_m))
         now = distance <= CUT * median_scale(distance)
-        now &= _facing(found.ellipsoid, points_m) > HIDDEN
+        now &= facing(found.ellipsoid, points_m) > HIDDEN
         if (now != sound).mean() <= settled:
             return found, now
         if now.mean() < 1 - MAX_SHARE:
@@ -48,7 +48,7 @@ def fit_without_outliers(
     return found, sound
 
 
-def _facing(ellipsoid: Ellipsoid, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+def facing(ellipsoid: Ellipsoid, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
     """Cosine (n,) of the ellipsoid's normal at points and the way from there to the camera."""
     normal = ellipsoid.to_sphere(points_m) / ellipsoid.half_axes_m @ ellipsoid.axes
     length = np.linalg.norm(normal, axis=1) * np.linalg.norm(points_m, axis=1)

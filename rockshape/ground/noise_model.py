@@ -46,6 +46,14 @@ class NoiseModel:
             self.rough_m**2 + depth_m**2 * (moving + (PIXEL_SHARE * self.pixel_rad) ** 2)
         )
 
+    def mean_variance(self, side_px: int) -> float:
+        """Variance of the mean error over a square of the image, over that of one error.
+
+        Each way the mean of 1 - |i - j|/window, 0 from the window on, over pairs of places i and j.
+        """
+        apart = np.abs(np.subtract.outer(np.arange(side_px), np.arange(side_px)))
+        return float(np.maximum(0, 1 - apart / self.window_px).mean() ** 2)
+
     def is_fine(self, depth_m: float) -> bool:
         """Whether z-depths there have errors below a twentieth of a pixel's size.
 

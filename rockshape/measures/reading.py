@@ -15,7 +15,6 @@ class Reason(StrEnum):
     NO_GROUND = "no ground"
     TOO_SMALL = "too small"
     TRUNCATED = "truncated"
-    CONTACTS = "contacts"
     DEGENERATE = "degenerate"
     NOT_RESOLVABLE = "not resolvable"
 

@@ -4,14 +4,17 @@ Meaning: how near the three axes are to equal, c against a and b: a sphere has 1
 little. Geologists read from it how a rock settles and rolls.
 
 Formula: (c²/(ab))^(1/3) with half-axes a >= b >= c (equation 2). `paper` takes the ellipsoid of
-nine parameters of least D_S through the points seen (equations 8 and 11), `robust` the one that
-also touches the outline's rays and rests on the ground.
+nine parameters of least D_S through the points seen (equations 8 and 11). `robust` takes the
+smallest box round the whole rock: the visible points, their reflection in the centre of the
+ellipsoid that also touches the outline's rays and rests on the ground, and their foot on the
+ground, less what the camera saw past. Its half sides are the table's axes.
 
 Range and unit: 0 to 1, no unit, whatever the scale.
 
-Blind to: edges and relief. The paper's reading also to the rock's far side, which range does not
-see: on rocks of known axes its error is twice to three times the robust reading's. The robust
-reading takes a buried rock for one that rests, and so for flatter than it is.
+Blind to: edges and relief that does not reach beyond the rock. The paper's reading also to the
+rock's far side, which range does not see. The robust reading takes the far side for the near one
+turned round, and a buried rock for one that rests, and so for flatter than it is. Two boxes of
+nearly one volume may have sides a tenth apart; their mean is taken.
 
 Smallest size: 30 points of range. On exact range rocks of 25 px across still have it to 0.03; what
 limits it is range noise, and less so held (`python benchmarks/run.py solids`).
@@ -51,10 +54,10 @@ def _evaluate(rock: RockView) -> float:
     return sphericity_3d(rock.ellipsoid.ellipsoid.half_axes_m)
 
 
-def _evaluate_held(rock: RockView) -> float:
-    if rock.held_ellipsoid is None:
+def _evaluate_body(rock: RockView) -> float:
+    if rock.body_half_axes_m is None:
         return float("nan")
-    return sphericity_3d(rock.held_ellipsoid.half_axes_m)
+    return sphericity_3d(rock.body_half_axes_m)
 
 
 def _draw() -> "Figure":
@@ -109,4 +112,4 @@ PAPER = Measure(
     value_range=(0.0, 1.0),
     figure=_draw,
 )
-ROBUST = replace(PAPER, evaluate=_evaluate_held, constrained=True)
+ROBUST = replace(PAPER, evaluate=_evaluate_body, constrained=True)

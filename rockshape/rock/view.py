@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from rockshape.body import box_half_axes_m, completed, visible_surface
 from rockshape.camera.camera import Camera
+from rockshape.camera.free_space import seen_past
 from rockshape.ellipse.arc import fit_arc
 from rockshape.ellipse.direct import Ellipse, fit_ellipse
 from rockshape.ellipse.moments import moment_ellipse
 from rockshape.ellipsoid import Ellipsoid, EllipsoidFit, fit_ellipsoid
 from rockshape.outline.edge import edge_of
 from rockshape.outline.extent import MIN_WIDTH_PX, feret_diameters
-from rockshape.outline.form import Form, form_of
-from rockshape.outline.resample import pixel_smooth, pixel_steps
+from rockshape.outline.resample import PIXEL_SIGMA, form_outline, pixel_smooth, pixel_steps
 from rockshape.outline.trace import trace_outline
-from rockshape.rock.contacts import contact_points
 from rockshape.rock.point_fit import PointFit, fit_points
 from rockshape.rock.visibility import touches_border
 from rockshape.surface import ResidualCurvature, Surface, fit_surface, measure_relief, view_patch
@@ -25,7 +25,6 @@ from rockshape.surface import ResidualCurvature, Surface, fit_surface, measure_r
 if TYPE_CHECKING:
     from rockshape.ground import Ground, NoiseModel
 
-MIN_OUTLINE_SHARE = 0.5  # of its edge that must be a rock's own for its corners to be judged
 NOISE_DRAWS = 4  # of errors like the range's, to tell what they alone would make of a surface
 
 
@@ -43,7 +42,6 @@ class RockView:
     ground: "Ground | None" = None
     frame: tuple[slice, slice] | None = None  # rows and columns in which rocks can be seen
     subpixel_px: NDArray[np.float64] | None = None  # (n, 2), its edge, closed, without a staircase
-    hidden: NDArray[np.bool_] | None = None  # of `not_ground`; None where nothing is beside it
 
     @property
     def noise(self) -> "NoiseModel | None":
@@ -79,26 +77,6 @@ class RockView:
         return edge_of(self.outline_px)
 
     @cached_property
-    def contact_px(self) -> NDArray[np.float64]:
-        """Points of the edge, (k, 2), at which another rock, ignored pixels or no frame begin."""
-        if self.hidden is None:
-            return np.empty((0, 2))
-        return self.edge_px[contact_points(self.edge_px, self.corner, self.hidden)]
-
-    @property
-    def outline_share(self) -> float:
-        """Share of the edge's points that are no contacts; NaN without an edge."""
-        count = len(self.edge_px)
-        return 1 - len(self.contact_px) / count if count else float("nan")
-
-    def is_own(self, points_px: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Which points (n, 2) of the form no contact has bent: those 2 sigma from any."""
-        if self.form is None or len(self.contact_px) == 0:
-            return np.ones(len(points_px), dtype=np.bool_)
-        apart = points_px[:, None] - self.contact_px
-        return np.asarray((apart**2).sum(axis=-1).min(axis=1) > (2 * self.form.sigma) ** 2)
-
-    @cached_property
     def smooth_outline_px(self) -> NDArray[np.float64]:
         """The edge without a staircase, (m, 2) evenly about a pixel apart."""
         if self.has_subpixel_edge:
@@ -106,14 +84,11 @@ class RockView:
         return pixel_smooth(self.edge_px)
 
     @cached_property
-    def form(self) -> Form | None:
-        """The edge's form, at the same share of any rock's size; None for an edge without area."""
-        return form_of(self.edge_px, staircase=not self.has_subpixel_edge)
-
-    @cached_property
     def form_outline_px(self) -> NDArray[np.float64]:
-        """The form's outline, (100, 2) evenly; (0, 2) for an edge without area."""
-        return np.empty((0, 2)) if self.form is None else self.form.even_points
+        """The edge's form, the same at every size: (100, 2), evenly."""
+        return form_outline(
+            self.edge_px, least_sigma=0.0 if self.has_subpixel_edge else PIXEL_SIGMA
+        )
 
     @cached_property
     def resolved(self) -> bool:
@@ -177,6 +152,29 @@ class RockView:
     def held_ellipsoid(self) -> Ellipsoid | None:
         """The ellipsoid that range, silhouette and ground hold, whichever of them are known."""
         return self.point_fit.ellipsoid
+
+    @cached_property
+    def body_half_axes_m(self) -> NDArray[np.float64] | None:
+        """Half-axes a >= b >= c, (3,), of the smallest box round the completed rock."""
+        if self.held_ellipsoid is None or self.grid_m is None:
+            return None
+        visible_m = visible_surface(
+            self.held_ellipsoid, self.grid_m, self.point_fit.known, self.noise
+        )
+        return box_half_axes_m(
+            completed(
+                visible_m,
+                self.held_ellipsoid,
+                plane=None if self.ground is None else self.ground.plane,
+                seen_past=self._seen_past,
+            )
+        )
+
+    def _seen_past(self, points_m: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Places (n,) of points (n, 3) that the camera saw past; without a camera none."""
+        if self.camera is None or self.grid_m is None:
+            return np.zeros(len(points_m), dtype=np.bool_)
+        return seen_past(points_m, self.mask, self.corner, self.camera, self.grid_m)
 
     @cached_property
     def sound_points_m(self) -> NDArray[np.float64]:

@@ -1,0 +1,66 @@
+"""Baselines for the form of rocks: one value for all, the smallest box of what is seen, a fit.
+
+Each is a measure from elsewhere with the column `sphericity_3d`; suites name them by
+`function = "validation.peers.forms:NAME"`.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+import rockshape
+from rockshape.ground.plane import fit_plane
+from synth.geometry.min_volume_box import smallest_box
+from validation.peers.declare import expected_trait
+
+COMMON = 0.75  # median over the scans that were developed on, apollo_sample 1, 3, 4, 7, 8 and 17
+
+Values = dict[str, list[float]]
+
+
+def _sphericity(half_axes_m: NDArray[np.float64]) -> float:
+    """Maximum projection sphericity of half-axes (3,), longest first."""
+    a, b, c = half_axes_m
+    return float(np.cbrt(c * c / (a * b)))
+
+
+@expected_trait(sphericity_3d="form")
+def one_value(
+    image: NDArray[np.float32], labels: NDArray[np.int32], points_m: NDArray[np.float64]
+) -> Values:
+    """One and the same value for every rock."""
+    del image, points_m
+    return {"sphericity_3d": [COMMON for _ in np.unique(labels[labels > 0])]}
+
+
+@expected_trait(sphericity_3d="form")
+def visible_box(
+    image: NDArray[np.float32], labels: NDArray[np.int32], points_m: NDArray[np.float64]
+) -> Values:
+    """Smallest box of the visible points and of their feet on the ground's plane."""
+    del image
+    plane = fit_plane(points_m[labels == 0])
+    found = []
+    for number in np.unique(labels[labels > 0]):
+        seen = points_m[labels == number]
+        seen = seen[np.isfinite(seen).all(axis=1)]
+        if plane is None or len(seen) < 4:
+            found.append(float("nan"))
+            continue
+        feet = seen - plane.height_m(seen)[:, None] * plane.normal
+        found.append(_sphericity(smallest_box(np.concatenate([seen, feet])).half_sides_m))
+    return {"sphericity_3d": found}
+
+
+@expected_trait(sphericity_3d="form")
+def constrained_ellipsoid(
+    image: NDArray[np.float32], labels: NDArray[np.int32], points_m: NDArray[np.float64]
+) -> Values:
+    """Half-axes of the ellipsoid that touches the outline's rays and rests on the ground."""
+    rocks = rockshape.measure(image=image, range_m=points_m, labels=labels)
+    fits = {rock.number: rock.ellipsoid for rock in rocks}
+    return {
+        "sphericity_3d": [
+            float("nan") if (fit := fits.get(int(number))) is None else _sphericity(fit.half_axes_m)
+            for number in np.unique(labels[labels > 0])
+        ]
+    }

@@ -18,6 +18,7 @@ PICTURES = {
     "segmentation_cases": "best and worst views of the suite `segmentation` (minutes)",
     "finder": "photographs with masks, by the image branch and by the network",
     "findings": "shares of each cause, suite `views` (minutes)",
+    "outlines": "level of the 2-D measures by size, on smooth, rough and real outlines",
     "paper_frames": "the named rocks of the paper's figures 11 and 12, outlined by hand",
     "range_noise": "estimated over true range noise by ground, from benchmarks/results.json",
     "realism": "made pictures beside photographs of their kind",

@@ -11,7 +11,8 @@ from synth.shapes.outline import axis_ratio
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-REPORTED_FROM = 10_000  # seeds below are for tuning
+TUNED_BELOW = 1_000  # seeds for tuning
+REPORTED_FROM = 10_000
 TURN_RAD = np.linspace(0, 2 * np.pi, 4000, endpoint=False)
 CIRCLE = np.column_stack([np.cos(TURN_RAD), np.sin(TURN_RAD)])
 

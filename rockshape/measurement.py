@@ -32,7 +32,8 @@ if TYPE_CHECKING:
 
 OUTLINE_COLOUR, ELLIPSE_COLOUR = "#ffd138", "#40b4ff"
 PLACE = ("rock", "row", "col", "area_px", "width_px", "height_px", "truncated", "visible_fraction")
-FLAGS = ("branch", "flags", "outline_sd_px")
+FOUND = ("branch", "flags", "outline_sd_px")
+FLAGS = (*FOUND, "outline_share")
 POINTS = tuple(PointCounts.__dataclass_fields__)
 AXES = ("axis_a_m", "axis_b_m", "axis_c_m")
 # the descriptors' columns, by the fields of the record
@@ -63,6 +64,7 @@ class Rock:
     truncated: bool  # touches the border of the frame, or of its measured part if found by range
     visible_fraction: float  # of the fitted ellipse, in the frame and not behind a nearer rock
     outline_px: NDArray[np.float64]  # (n, 2) as (x, y), the outline that is measured
+    outline_share: float  # of its pixels' edge, that neither a neighbour nor ignored pixels made
     points: PointCounts
     ellipse: Ellipse | None
     ellipsoid: Ellipsoid | None
@@ -227,11 +229,11 @@ def to_frame(measurement: Measurement, *, flags: bool = False) -> "pd.DataFrame"
 
 
 def _found(found: "FoundRock | None") -> dict[str, object]:
-    """How a rock was found, as the columns of FLAGS."""
+    """How a rock was found, as the columns of FOUND."""
     if found is None:
-        return dict(zip(FLAGS, ("labels", "", np.nan), strict=True))
+        return dict(zip(FOUND, ("labels", "", np.nan), strict=True))
     sd_px = np.nan if found.outline is None else found.outline.sd_px
-    return dict(zip(FLAGS, (found.branch, "; ".join(found.flags), sd_px), strict=True))
+    return dict(zip(FOUND, (found.branch, "; ".join(found.flags), sd_px), strict=True))
 
 
 def _row(rock: Rock, found: dict[str, object]) -> dict[str, object]:
@@ -241,6 +243,7 @@ def _row(rock: Rock, found: dict[str, object]) -> dict[str, object]:
     row |= {name: getattr(rock, name) for name in PLACE[1:]}
     row |= dataclasses.asdict(rock.points)
     row |= zip(AXES, half_axes, strict=True)
+    row["outline_share"] = rock.outline_share
     row |= rock.values
     if rock.sizes is not None:
         row |= zip(SIZES, rock.sizes.row(), strict=True)

@@ -14,6 +14,7 @@ from rockshape.observation import Observation, locate_camera
 from rockshape.outline.descriptors import UNRESOLVED, Descriptors, describe_edge, describe_outline
 from rockshape.point_grid.flying import flying_pixels
 from rockshape.rock.blas_threads import one_blas_thread
+from rockshape.rock.contacts import not_ground
 from rockshape.rock.instances import Instance, Instances, Window
 from rockshape.rock.point_fit import PointCounts
 from rockshape.rock.sizes import Sizes, pixel_on_rock_m, sizes_of
@@ -190,6 +191,7 @@ def _rock(
             whole, fits.ellipse, scene.instances, scene.observation.points_m
         ),
         outline_px=outline_px,
+        outline_share=view.outline_share,
         points=_counts(
             view,
             flying=_flying_on(scene, part),
@@ -263,4 +265,5 @@ def _view_rock(scene: _Scene, part: Instance) -> RockView:
         ground=scene.ground,
         frame=scene.frame,
         subpixel_px=part.outline_px,
+        hidden=not_ground(part, scene.instances, scene.frame, scene.observation.ignored),
     )

@@ -1,6 +1,6 @@
 """Wadell's roundness by size in pixels, on shapes whose roundness is known."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 
 import numpy as np
@@ -9,7 +9,7 @@ from scipy.spatial import ConvexHull
 from silhouettes import CIRCLE, REPORTED_FROM, Floats, Mask, draw, fill, over_turns, turned
 
 from rockshape.outline.edge import trace_edge
-from rockshape.outline.resample import pixel_smooth
+from rockshape.outline.form import form_of
 from rockshape.outline.roundness import wadell_roundness
 from synth.rocks import quarry
 from synth.rocks.outlines import RoundedHull
@@ -44,7 +44,10 @@ def roundness_by_size(
         for chart in range(charts)
         for shape in draw("krumbein", seed=REPORTED_FROM + chart)
     ]
-    shapes = {"rounded polygons": polygons, "rounded polyhedra": _rocks(scenes)}
+    shapes = {
+        "rounded polygons": polygons,
+        "rounded polyhedra": rock_outlines(range(REPORTED_FROM, REPORTED_FROM + scenes)),
+    }
     readers: dict[str, Reader] = {"rockshape": _wadell}
     if fast_rs is not None:
         readers["fast_rs"] = lambda mask: float(fast_rs.rs_calculate(mask)[0][0])
@@ -80,17 +83,18 @@ def roundness_by_size(
 
 
 def _wadell(mask: Mask) -> float:
-    return wadell_roundness(pixel_smooth(trace_edge(mask)))
+    form = form_of(trace_edge(mask), staircase=True)
+    return float("nan") if form is None else wadell_roundness(form)
 
 
 def _rms(values: Floats) -> float:
     return float(np.sqrt(np.mean(values**2)))
 
 
-def _rocks(scenes: int) -> list[Shape]:
+def rock_outlines(seeds: Iterable[int]) -> list[Shape]:
     """Return outlines of rounded polyhedra, each seen from anywhere, with their roundness."""
     found: list[Shape] = []
-    for seed in range(REPORTED_FROM, REPORTED_FROM + scenes):
+    for seed in seeds:
         rng = np.random.default_rng(seed)
         for rock in quarry(RocksSpec(), rng=rng):
             if isinstance(rock.form, RoundedHull):
@@ -112,13 +116,13 @@ def _drawn(outline: Floats, seed: int, size: float) -> Mask:
 
 def _closed_forms() -> dict[str, tuple[Floats, float]]:
     """Return outlines of half-length 1 and their roundness."""
-    forms = {"disc": (CIRCLE, 1.0), "stadium 2:1": (_box(0.5, 0.5), 1.0)}
+    forms = {"disc": (CIRCLE, 1.0), "stadium 2:1": (box(0.5, 0.5), 1.0)}
     forms |= {f"ellipse {ratio}": (CIRCLE * (1, ratio), ratio) for ratio in (0.8, 0.4)}
-    forms |= {f"square, radius {r}": (_box(1.0, r), r) for r in (0.05, 0.2, 0.5)}
-    return forms | {f"box 2:1, radius {r}": (_box(0.5, r), 2 * r) for r in (0.05, 0.2)}
+    forms |= {f"square, radius {r}": (box(1.0, r), r) for r in (0.05, 0.2, 0.5)}
+    return forms | {f"box 2:1, radius {r}": (box(0.5, r), 2 * r) for r in (0.05, 0.2)}
 
 
-def _box(half_width: float, radius: float) -> Floats:
+def box(half_width: float, radius: float) -> Floats:
     """Return a box of half-length 1 with corners rounded by a radius."""
     quarter = np.linspace(0, np.pi / 2, 200)
     arc = radius * np.column_stack([np.cos(quarter), np.sin(quarter)])

@@ -5,25 +5,24 @@ corners.
 
 Formula: equations 6 and 7. At each point the flattest angle of the triangles whose other corners
 lie 3 to 8 points before and after it; the measure is the standard deviation of those angles over
-the outline. `paper`: over the boundary pixels. `robust`: over 100 points evenly along the
-sub-pixel edge, smoothed by 1.2 % of its length, so that a triangle spans the same share of any
-rock.
+the outline. `paper`: over the boundary pixels. `robust`: over 100 points evenly along the outline's
+form, smoothed by 0.12 of the radius of the disc of equal area, so that a triangle spans the same
+share of any rock; and less what the ellipse of the same axes has, sqrt(spread² - ellipse's²), which
+is form and no angularity.
 
-Range and unit: from 0. `paper` in degrees; `robust` in radians, a pure number: 0.1 for a pebble,
-0.27 for a sharp polygon of seven corners, 0.39 for a square.
+Range and unit: from 0. `paper` in degrees; `robust` in radians, a pure number: 0 for any ellipse,
+0.08 for a pebble, 0.23 for a sharp polygon of seven corners.
 
-Blind to: the corners' number, as long as the bend is as uneven; `robust` to corners rounded by
-less than 1.2 % of the outline.
+Blind to: the corners' number, as long as the bend is as uneven; `robust` to ripples shorter than
+half the radius of the disc of equal area.
 
 Smallest size: `paper` falls with size, since the staircase is what it sees: to a seventh from 30
 to 1000 px on one and the same shape, and a disc scores 12 degrees at a radius of 6 px and 2.4 at
-100 px; above 200 px it no longer ranks shapes (tau 0.98 at 200 px, 0.37 at 1000). `robust`: 8 %
-high at 30 px, 3.5 % at 40 px, 1.0 % at 60 px and 0.5 % at 100 px beside its value at 1000 px; tau
-0.94 at 30 px, 0.97 at 40 px and 1 from 60 px on; with all sizes in one heap 0.91 of 0.92 possible,
-where the paper's has 0.24.
+100 px; above 200 px it no longer ranks shapes (tau 0.98 at 200 px, 0.37 at 1000). `robust` holds
+from 60 px on; docs/resolution.md has its order and level by size.
 
 Degenerate: NaN for fewer than 17 points, where the triangles would meet behind the point. `robust`
-refuses rocks that the frame cuts or less than 4 px wide.
+leaves contacts out as roundness does, and refuses rocks that the frame cuts or less than 4 px wide.
 
 Source: Fox et al. (2002), equations 6 and 7 and figure 3.
 """
@@ -34,9 +33,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from rockshape.ellipse.moments import moment_ellipse
 from rockshape.measures.measure import Measure
 from rockshape.measures.reading import Reason
-from rockshape.rock.view import RockView
+from rockshape.outline.form import EVEN_POINTS, Form
+from rockshape.outline.resample import even_outline
+from rockshape.rock.view import MIN_OUTLINE_SHARE, RockView
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -44,6 +46,7 @@ if TYPE_CHECKING:
 
 ALPHA = 2
 BETA = 9
+_RING = 400  # points of an ellipse, between which lines stand for it
 
 
 def angularity_2d_deg(
@@ -110,10 +113,37 @@ def _unit_chords(outline: NDArray[np.float64], nearest: int, farthest: int) -> N
     return chords
 
 
+def angularity_beyond_form(
+    form: Form, own: NDArray[np.bool_] | None = None, *, alpha: int = ALPHA
+) -> float:
+    """What the spread of the flattest angles has beyond that of the form's ellipse, in radians.
+
+    sqrt(spread² - ellipse's spread²) over 100 even points each, 0 where the ellipse bends as
+    unevenly: an ellipse twice as long as wide has a spread of 0.09 that is form and no angularity.
+    The ellipse has the outline's second moments. own (100,) says which even points are the rock's
+    own outline; all by default. NaN where there is no ellipse or fewer than two of them.
+    """
+    ellipse = moment_ellipse(form.points)
+    if ellipse is None:
+        return float("nan")
+    angles = flattest_angles_rad(form.even_points, alpha=alpha)
+    angles = angles if own is None else angles[own]
+    ring = even_outline(ellipse.ring(_RING), EVEN_POINTS)
+    smooth = flattest_angles_rad(ring, alpha=alpha).std(ddof=1)
+    if len(angles) < 2:
+        return float("nan")
+    bends = angles.std(ddof=1)
+    return float(np.sqrt(max(0.0, bends**2 - smooth**2)))
+
+
 def _read_robust(rock: RockView) -> float | Reason:
     if not rock.resolved:
         return Reason.TOO_SMALL
-    return float(np.radians(angularity_2d_deg(rock.form_outline_px)))
+    if rock.form is None:
+        return Reason.DEGENERATE
+    if rock.outline_share < MIN_OUTLINE_SHARE:
+        return Reason.CONTACTS
+    return angularity_beyond_form(rock.form, rock.is_own(rock.form_outline_px))
 
 
 def _evaluate(rock: RockView) -> float:

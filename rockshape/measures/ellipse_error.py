@@ -7,19 +7,18 @@ Formula: `paper`: the mean of squared distances along the ray from the ellipse's
 says sum, the published values say mean: pixels alone sum to 4 to 39 px², where table 4 has 0.30.
 `robust`: RMS/sqrt(ab), the root of the mean squared orthogonal distance of the outline's form from
 the ellipse fitted to that form, over the root of the half-axes' product. The form is 100 points
-evenly along the sub-pixel edge, smoothed by 1.2 % of its length.
+evenly along the sub-pixel edge, smoothed by 0.12 of the radius of the disc of equal area.
 
 Range and unit: from 0. `paper` in px², growing with the square of the rock's size in pixels;
 `robust` a pure number, 0.02 for a pebble, 0.04 for a sharp polygon of seven corners, 0.11 for a
 square.
 
-Blind to: the axis ratio, as far as the ellipse follows it; `robust` to texture finer than 1.2 % of
-the outline.
+Blind to: the axis ratio, as far as the ellipse follows it; `robust` to ripples shorter than
+half the radius of the disc of equal area.
 
-Smallest size: `paper`: pixels alone give about 0.07 px². `robust`: 5 % high at 30 px, 2.6 % at 40
-px, 0.6 % at 60 px and 0.3 % at 100 px beside its value at 1000 px; shapes graded by roundness keep
-their order with Kendall's tau 0.95 at 30 px and 1 from 60 px on. With all sizes in one heap tau is
-0.91 of 0.92 possible, where the paper's has 0.19.
+Smallest size: `paper`: pixels alone give about 0.07 px². `robust` holds from 60 px
+on; docs/resolution.md has its order and level by size, docs/findings.md why its scale is what it
+is.
 
 Degenerate: NaN where the outline has no ellipse; `robust` refuses rocks that the frame cuts or
 less than 4 px wide.

@@ -15,6 +15,7 @@ class Reason(StrEnum):
     NO_GROUND = "no ground"
     TOO_SMALL = "too small"
     TRUNCATED = "truncated"
+    CONTACTS = "contacts"
     DEGENERATE = "degenerate"
     NOT_RESOLVABLE = "not resolvable"
 

@@ -3,22 +3,29 @@
 Meaning: the field's standard of a grain's wear: small where corners are sharp, 1 where none is
 sharper than the largest circle inside. Independent of form for boxes and polygons.
 
-Formula: (1/n) sum r_i / R: the mean radius of curvature of the n corners over the radius of the
-largest inscribed circle, a corner being where the radius is less than R. The curvature is smoothed
-by a Gaussian and each corner's radius is solved from its peak and its turning; see
-`rockshape/outline/roundness.py`. Only `robust`: the paper has no such measure, and what it calls
-roundness rises with angularity.
+Formula: Wadell's (1/n) sum r_i / R, the mean radius of the n corners over that of the largest
+inscribed circle, read at one scale: the outline is smoothed by 0.12 of the radius of the disc of
+equal area. r is that of the root mean square curvature over all outward turning, sqrt(integral of k
+ds / integral of k³ ds), and a curve fitted to clean outlines of exact roundness undoes what the
+smoothing did to r / R; see `rockshape/outline/roundness.py`. Only `robust`: the paper has no such
+measure, and what it calls roundness rises with angularity.
 
 Range and unit: 0 to 1, a pure number.
 
-Blind to: how many corners there are, dents, and corners that turn by less than 11 degrees.
+Blind to: dents, corners' number, and ripples shorter than half the radius of the disc of equal
+area, which are texture. On the exact scale for rocks of seven to eleven corners; the fewer corners,
+the sharper it reads: squares by 0.05 to 0.15, ellipses as much rounder.
 
-Smallest size: 60 px for a rock of few corners. Corners that are many are small, and read too
-round: a rock of some eleven corners wants 200 px. docs/resolution.md has the correlation with the
-truth, bias and error by size, beside fast_rs's (`python benchmarks/run.py roundness`). The gate is
-the rock's width, for corners lie across it however long the rock is.
+Smallest size: 30 px. The scale is the same share of any rock from 30 px on, so that rough
+silhouettes have the same mean within 0.03 from 60 to 400 px; below 30 px it is 1.8 px, and more of
+the corners is lost. docs/resolution.md has correlation with the truth, bias and error by size
+(`python benchmarks/run.py roundness`). The gate is the rock's width, for corners lie across it
+however long the rock is.
 
-Degenerate: 1 where there is no corner. Refuses rocks that the frame cuts or less than 12 px wide.
+Degenerate: 1 where nothing bends more than the inscribed circle. Contacts, edges that neighbours or
+ignored regions have made, are no corners, and are left out with two deviations of the smoothing on
+either side; with less than half of the outline left it refuses. It refuses rocks that the frame
+cuts or less than 12 px wide.
 
 Source: Wadell (1932), Volume, shape, and roundness of rock particles.
 """
@@ -27,20 +34,26 @@ from typing import TYPE_CHECKING
 
 from rockshape.measures.measure import Measure
 from rockshape.measures.reading import Reason
-from rockshape.outline.roundness import MIN_POINTS, inscribed_circle, wadell_roundness
-from rockshape.rock.view import RockView
+from rockshape.outline.inscribed_circle import inscribed_circle
+from rockshape.outline.roundness import wadell_roundness
+from rockshape.rock.view import MIN_OUTLINE_SHARE, RockView
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
 MIN_WIDTH_PX = 12.0  # least Feret diameter
+MIN_POINTS = 30
 
 
 def _read_robust(rock: RockView) -> float | Reason:
     if not rock.feret_px[0] >= MIN_WIDTH_PX:
         return Reason.TOO_SMALL
-    return wadell_roundness(rock.smooth_outline_px)
+    if rock.form is None:
+        return Reason.DEGENERATE
+    if rock.outline_share < MIN_OUTLINE_SHARE:
+        return Reason.CONTACTS
+    return wadell_roundness(rock.form, rock.is_own(rock.form.points))
 
 
 def _draw() -> "Figure":

@@ -7,8 +7,7 @@ from rockshape.outline.trace import signed_area
 
 PIXEL_SIGMA = 1.0  # px: takes the staircase, leaves the corners
 LENGTH_SIGMA = 0.4  # sqrt(px), of the square root of the radius: takes what lengthens it too
-FORM_POINTS = 100
-FORM_SIGMA = 0.012  # of the outline's length
+MIN_POINTS = 100
 
 
 def outline_length(outline: NDArray[np.float64]) -> float:
@@ -46,9 +45,14 @@ def smooth_evenly(outline: NDArray[np.float64], *, sigma: float, count: int) -> 
         return even
     # fftfreq in whole waves round the outline
     wave = np.fft.fftfreq(len(even), 1 / len(even)) * (2 * np.pi * sigma / outline_length(even))
-    gauss = np.exp(-(wave**2) / 2)
-    smooth = np.fft.ifft(np.fft.fft(even[:, 0] + 1j * even[:, 1]) * gauss * (2 - gauss))
+    smooth = np.fft.ifft(np.fft.fft(even[:, 0] + 1j * even[:, 1]) * fine_attenuation(wave))
     return even_outline(np.column_stack([smooth.real, smooth.imag]), count)
+
+
+def fine_attenuation(wave: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Share of a harmonic that is left, g (2 - g), g = exp(-wave² / 2), wave 2 pi k sigma / L."""
+    gauss = np.exp(-(wave**2) / 2)
+    return np.asarray(gauss * (2 - gauss))
 
 
 def canonical(outline: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -72,7 +76,7 @@ def pixel_smooth(edge_px: NDArray[np.float64]) -> NDArray[np.float64]:
     """
     ring = canonical(edge_px)
     # round a pixel edge one passes up to sqrt(2) sides' middles a pixel of length
-    count = max(FORM_POINTS, round(outline_length(ring)))
+    count = max(MIN_POINTS, round(outline_length(ring)))
     return smooth_evenly(ring, sigma=PIXEL_SIGMA, count=count)
 
 
@@ -86,23 +90,10 @@ def length_outline(edge_px: NDArray[np.float64]) -> NDArray[np.float64]:
     ring = canonical(edge_px)
     radius = np.sqrt(abs(signed_area(ring)) / np.pi)
     sigma = max(PIXEL_SIGMA, LENGTH_SIGMA * float(np.sqrt(radius)))
-    return smooth_evenly(ring, sigma=sigma, count=max(FORM_POINTS, round(outline_length(ring))))
+    return smooth_evenly(ring, sigma=sigma, count=max(MIN_POINTS, round(outline_length(ring))))
 
 
 def pixel_steps(outline_px: NDArray[np.float64]) -> NDArray[np.float64]:
     """A closed outline (n, 2) at (m, 2) points evenly about a pixel apart, without smoothing."""
     ring = canonical(outline_px)
-    return even_outline(ring, max(FORM_POINTS, round(outline_length(ring))))
-
-
-def form_outline(
-    outline_px: NDArray[np.float64], *, least_sigma: float = PIXEL_SIGMA
-) -> NDArray[np.float64]:
-    """The form of a closed outline (n, 2) at (100, 2) points, the same at every size.
-
-    Smoothed by 1.2 % of its length, and at least by least_sigma (px), which is what the staircase
-    of a pixel edge asks for.
-    """
-    ring = canonical(outline_px)
-    sigma = max(least_sigma, FORM_SIGMA * outline_length(ring))
-    return smooth_evenly(ring, sigma=sigma, count=FORM_POINTS)
+    return even_outline(ring, max(MIN_POINTS, round(outline_length(ring))))

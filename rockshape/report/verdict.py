@@ -13,6 +13,7 @@ MANY = 20  # rocks from which percentiles are told
 _WHY = {
     Reason.TOO_SMALL: "too small in pixels",
     Reason.TRUNCATED: "cut by the frame",
+    Reason.CONTACTS: "outlined by neighbours",
     Reason.NO_RANGE: "without range",
 }
 

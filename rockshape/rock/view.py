@@ -16,8 +16,10 @@ from rockshape.ellipse.moments import moment_ellipse
 from rockshape.ellipsoid import Ellipsoid, EllipsoidFit, fit_ellipsoid
 from rockshape.outline.edge import edge_of
 from rockshape.outline.extent import MIN_WIDTH_PX, feret_diameters
-from rockshape.outline.resample import PIXEL_SIGMA, form_outline, pixel_smooth, pixel_steps
+from rockshape.outline.form import Form, form_of
+from rockshape.outline.resample import pixel_smooth, pixel_steps
 from rockshape.outline.trace import trace_outline
+from rockshape.rock.contacts import contact_points
 from rockshape.rock.point_fit import PointFit, fit_points
 from rockshape.rock.visibility import touches_border
 from rockshape.surface import ResidualCurvature, Surface, fit_surface, measure_relief, view_patch
@@ -25,6 +27,7 @@ from rockshape.surface import ResidualCurvature, Surface, fit_surface, measure_r
 if TYPE_CHECKING:
     from rockshape.ground import Ground, NoiseModel
 
+MIN_OUTLINE_SHARE = 0.5  # of its edge that must be a rock's own for its corners to be judged
 NOISE_DRAWS = 4  # of errors like the range's, to tell what they alone would make of a surface
 
 
@@ -42,6 +45,7 @@ class RockView:
     ground: "Ground | None" = None
     frame: tuple[slice, slice] | None = None  # rows and columns in which rocks can be seen
     subpixel_px: NDArray[np.float64] | None = None  # (n, 2), its edge, closed, without a staircase
+    hidden: NDArray[np.bool_] | None = None  # of `not_ground`; None where nothing is beside it
 
     @property
     def noise(self) -> "NoiseModel | None":
@@ -77,6 +81,26 @@ class RockView:
         return edge_of(self.outline_px)
 
     @cached_property
+    def contact_px(self) -> NDArray[np.float64]:
+        """Points of the edge, (k, 2), at which another rock, ignored pixels or no frame begin."""
+        if self.hidden is None:
+            return np.empty((0, 2))
+        return self.edge_px[contact_points(self.edge_px, self.corner, self.hidden)]
+
+    @property
+    def outline_share(self) -> float:
+        """Share of the edge's points that are no contacts; NaN without an edge."""
+        count = len(self.edge_px)
+        return 1 - len(self.contact_px) / count if count else float("nan")
+
+    def is_own(self, points_px: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Which points (n, 2) of the form no contact has bent: those 2 sigma from any."""
+        if self.form is None or len(self.contact_px) == 0:
+            return np.ones(len(points_px), dtype=np.bool_)
+        apart = points_px[:, None] - self.contact_px
+        return np.asarray((apart**2).sum(axis=-1).min(axis=1) > (2 * self.form.sigma) ** 2)
+
+    @cached_property
     def smooth_outline_px(self) -> NDArray[np.float64]:
         """The edge without a staircase, (m, 2) evenly about a pixel apart."""
         if self.has_subpixel_edge:
@@ -84,11 +108,14 @@ class RockView:
         return pixel_smooth(self.edge_px)
 
     @cached_property
+    def form(self) -> Form | None:
+        """The edge's form, at the same share of any rock's size; None for an edge without area."""
+        return form_of(self.edge_px, staircase=not self.has_subpixel_edge)
+
+    @cached_property
     def form_outline_px(self) -> NDArray[np.float64]:
-        """The edge's form, the same at every size: (100, 2), evenly."""
-        return form_outline(
-            self.edge_px, least_sigma=0.0 if self.has_subpixel_edge else PIXEL_SIGMA
-        )
+        """The form's outline, (100, 2) evenly; (0, 2) for an edge without area."""
+        return np.empty((0, 2)) if self.form is None else self.form.even_points
 
     @cached_property
     def resolved(self) -> bool:

@@ -83,6 +83,9 @@ COLUMNS: Mapping[str, TableColumn] = MappingProxyType(
             TableColumn("branch", "", "what found it: range, image or labels", "string"),
             TableColumn("flags", "", "what its view lacks", "string"),
             TableColumn("outline_sd_px", "px", "standard deviation of its outline", may_lack=True),
+            TableColumn(
+                "outline_share", "", "share of its edge that no neighbour made", may_lack=True
+            ),
         )
     }
 )

@@ -9,7 +9,6 @@ from rockshape.outline.edge import edge_of, trace_edge
 from rockshape.outline.resample import (
     canonical,
     even_outline,
-    form_outline,
     outline_length,
     pixel_smooth,
     smooth_evenly,
@@ -99,13 +98,6 @@ def test_smoothing_takes_the_staircase_and_leaves_the_form() -> None:
     # a staircase is longer than its line by 4/pi; between its sides' middles by 5.5 % on average
     assert outline_length(edge) == pytest.approx(1.055 * length, rel=0.005)
     assert outline_length(pixel_smooth(edge)) == pytest.approx(length, rel=0.009)
-
-
-def test_the_form_does_not_depend_on_start_and_direction() -> None:
-    edge = trace_edge(solids.ellipse(31, 17, turn_rad=0.7, shift=(0.2, 0.3)))
-    expected = form_outline(edge)
-    for other in (np.roll(edge, 41, axis=0), edge[::-1], np.roll(edge[::-1], 7, axis=0)):
-        assert form_outline(other) == pytest.approx(expected, abs=1e-9)
 
 
 def test_the_canonical_start_turns_with_the_outline() -> None:

@@ -2,11 +2,16 @@
 
 import numpy as np
 
-from rockshape.measures.angularity_2d import angularity_2d_deg
+from rockshape.measures.angularity_2d import (
+    ALPHA,
+    angularity_2d_deg,
+    angularity_beyond_form,
+)
 from rockshape.measures.angularity_3d import angularity_3d
 from rockshape.measures.ellipsoid_error import ellipsoid_error
 from rockshape.measures.sphericity_3d import sphericity_3d
-from rockshape.outline.roundness import wadell_roundness
+from rockshape.outline.form import FORM_SHARE, form_of
+from rockshape.outline.roundness import bend_share, wadell_roundness
 from rockshape.rock.view import RockView
 from validation.mutations.mutation import Mutation
 from validation.mutations.shared import FORM, SHAPES, YARD, shuffled, stale, unsorted
@@ -14,8 +19,17 @@ from validation.mutations.shared import FORM, SHAPES, YARD, shuffled, stale, uns
 _NAN = float("nan")
 
 
-def _form_angularity(rock: RockView) -> float:
-    return float(np.radians(angularity_2d_deg(rock.form_outline_px)))
+def _angularity(rock: RockView, *, alpha: int = ALPHA) -> float:
+    return _NAN if rock.form is None else angularity_beyond_form(rock.form, alpha=alpha)
+
+
+def _roundness(rock: RockView, *, share: float = FORM_SHARE) -> float:
+    form = form_of(rock.edge_px, staircase=True, share=share)
+    return _NAN if form is None else wadell_roundness(form)
+
+
+def _bend(rock: RockView) -> float:
+    return _NAN if rock.form is None else bend_share(rock.form)
 
 
 def _form_ratio(rock: RockView) -> float:
@@ -39,16 +53,22 @@ def _summed_bend(rock: RockView) -> float:
 
 ROBUST = (
     Mutation(
-        "staircase kept",
-        "roundness of the pixels' sides",
+        "coarser form",
+        "roundness of corners smoothed twice as far",
         SHAPES,
-        evaluate={"roundness": lambda rock: wadell_roundness(rock.edge_px)},
+        evaluate={"roundness": lambda rock: _roundness(rock, share=2 * FORM_SHARE)},
+    ),
+    Mutation(
+        "smoothing kept",
+        "roundness of the smooth corners, the curve left out",
+        SHAPES,
+        evaluate={"roundness": _bend},
     ),
     Mutation(
         "diameter for radius",
         "corners' diameters over the inscribed circle's radius",
         SHAPES,
-        evaluate={"roundness": lambda rock: 2 * wadell_roundness(rock.smooth_outline_px)},
+        evaluate={"roundness": lambda rock: 2 * _roundness(rock)},
     ),
     Mutation(
         "boundary pixels",
@@ -59,20 +79,24 @@ ROBUST = (
         },
     ),
     Mutation(
+        "form kept",
+        "2-D angularity with what an ellipse of the same axes has",
+        SHAPES,
+        evaluate={
+            "angularity_2d": lambda rock: float(np.radians(angularity_2d_deg(rock.form_outline_px)))
+        },
+    ),
+    Mutation(
         "alpha off by one",
         "α = 3: no triangles with corners three points away",
         SHAPES,
-        evaluate={
-            "angularity_2d": lambda rock: float(
-                np.radians(angularity_2d_deg(rock.form_outline_px, alpha=3))
-            )
-        },
+        evaluate={"angularity_2d": lambda rock: _angularity(rock, alpha=3)},
     ),
     Mutation(
         "degrees for radians",
         "2-D angularity in degrees",
         SHAPES,
-        evaluate={"angularity_2d": lambda rock: float(np.degrees(_form_angularity(rock)))},
+        evaluate={"angularity_2d": lambda rock: float(np.degrees(_angularity(rock)))},
     ),
     Mutation(
         "squared axes",

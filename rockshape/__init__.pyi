@@ -3,6 +3,9 @@ from .api import measure as measure
 from .camera.camera import Camera as Camera
 from .camera.camera import PinholeLike as PinholeLike
 from .errors import InputError as InputError
+from .fusion.fusion import Fusion as Fusion
+from .fusion.fusion import fuse as fuse
+from .fusion.pose import CameraPose as CameraPose
 from .ground import Ground as Ground
 from .inputs.files import read as read
 from .measurement import Measurement as Measurement

@@ -13,7 +13,7 @@ from rockshape.method import methods
 HEAVY = ("numpy", "cv2", "pandas", "scipy", "PIL", "matplotlib", "skimage", "msgspec")
 
 
-@pytest.mark.parametrize("command", ["measure", "formats"])
+@pytest.mark.parametrize("command", ["measure", "formats", "fuse"])
 def test_help_imports_nothing_heavy(command: str) -> None:
     code = f"""
 import sys
@@ -35,7 +35,7 @@ def help_of(capsys: pytest.CaptureFixture[str], command: str) -> str:
     return capsys.readouterr().out
 
 
-@pytest.mark.parametrize("command", ["measure", "formats"])
+@pytest.mark.parametrize("command", ["measure", "formats", "fuse"])
 def test_help_has_two_examples(capsys: pytest.CaptureFixture[str], command: str) -> None:
     text = help_of(capsys, command)
     examples = text.partition("examples:\n")[2].splitlines()

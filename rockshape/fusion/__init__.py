@@ -1,0 +1,1 @@
+"""Fusion of several views: poses refined, rocks matched between views, one row a rock."""

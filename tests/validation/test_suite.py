@@ -28,6 +28,7 @@ def test_the_suites_of_the_contract_are_there() -> None:
         "ci",
         "full",
         "garden",
+        "outlines",
         "segmentation",
         "shapes-roundness",
         "shapes-sphericity",

@@ -6,7 +6,7 @@ from msgspec import Meta
 
 from validation.suite.experiment import MeasuredExperiment
 
-ShapeSeries = Literal["roundness", "sphericity"]
+ShapeSeries = Literal["roundness", "sphericity", "rough"]
 
 
 class ShapesExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="shapes"):
@@ -20,6 +20,7 @@ class ShapesExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="shape
     drawings: Annotated[int, Meta(ge=1, le=9999)]
     series: Annotated[tuple[ShapeSeries, ...], Meta(min_length=1)] = ("roundness", "sphericity")
     count: Annotated[int, Meta(ge=3, le=12)] = 4
+    size_px: Annotated[float, Meta(ge=30, le=1000)] | None = None  # None: the series' own
 
     @property
     def units(self) -> tuple[tuple[str, int], ...]:

@@ -21,7 +21,9 @@ def views(unit: Unit[ShapesExperiment]) -> tuple[list[ViewCase], str]:
     seed = experiment.seed + unit.scene
     with TemporaryDirectory(prefix="rockshape-") as parent:
         folder = Path(parent) / "data"
-        write_series(unit.series, folder, count=experiment.count, seed=seed)
+        write_series(
+            unit.series, folder, count=experiment.count, seed=seed, size_px=experiment.size_px
+        )
         image = read_image(folder / "image.png")
         case = ViewCase(
             place=RecordKey(experiment.name, "shapes", unit.series, unit.scene, seed, 0, ""),

@@ -102,7 +102,8 @@ def _add_run(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="COLUMN=TRAIT",
-        help="trait that a column of --measure should rise with: angularity, roundness or form",
+        help="trait that a column of --measure should rise with: angularity, roundness, "
+        "roughness or form",
     )
     parser.set_defaults(action=_run)
 

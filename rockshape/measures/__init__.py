@@ -6,6 +6,7 @@ from rockshape.measures import (
     axis_ratio,
     ellipse_error,
     ellipsoid_error,
+    roughness_3d,
     roundness,
     sphericity_2d,
     sphericity_3d,
@@ -31,6 +32,7 @@ ROBUST = (
     ellipsoid_error.ROBUST,
     sphericity_3d.ROBUST,
     angularity_3d.ROBUST,
+    roughness_3d.ROBUST,
 )
 
 __all__ = ["PAPER", "ROBUST", "Measure", "Reading", "Reason", "Trait"]

@@ -23,6 +23,7 @@ from rockshape.measures import angularity_3d as _angularity_3d
 from rockshape.measures import axis_ratio as _axis_ratio
 from rockshape.measures import ellipse_error as _ellipse_error
 from rockshape.measures import ellipsoid_error as _ellipsoid_error
+from rockshape.measures import roughness_3d as _roughness_3d
 from rockshape.measures import roundness as _roundness
 from rockshape.measures import sphericity_2d as _sphericity_2d
 from rockshape.measures import sphericity_3d as _sphericity_3d
@@ -99,6 +100,16 @@ def angularity_3d(
     """3-D angularity of points; `paper` in 1/m."""
     measure = _choose(method, robust=_angularity_3d.ROBUST, paper=_angularity_3d.PAPER)
     return _solid(points_m, measure, camera=camera, ground=ground)
+
+
+def roughness_3d(
+    points_m: ArrayLike,
+    *,
+    camera: CameraLike | None = None,
+    ground: Ground | Plane | None = None,
+) -> Reading:
+    """3-D roughness of points."""
+    return _solid(points_m, _roughness_3d.ROBUST, camera=camera, ground=ground)
 
 
 def _choose(method: str, *, robust: Measure, paper: Measure) -> Measure:

@@ -12,7 +12,7 @@ from rockshape.rock.view import RockView
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-Trait = Literal["angularity", "roundness", "form"]
+Trait = Literal["angularity", "roundness", "roughness", "form"]
 
 
 @dataclass(frozen=True)

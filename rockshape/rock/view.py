@@ -22,7 +22,7 @@ from rockshape.outline.trace import trace_outline
 from rockshape.rock.contacts import contact_points
 from rockshape.rock.point_fit import PointFit, fit_points
 from rockshape.rock.visibility import touches_border
-from rockshape.surface import ResidualCurvature, Surface, fit_surface, measure_relief, view_patch
+from rockshape.surface import Relief, Surface, fit_surface, measure_relief, view_patch
 
 if TYPE_CHECKING:
     from rockshape.ground import Ground, NoiseModel
@@ -209,8 +209,8 @@ class RockView:
         return np.empty((0, 3)) if self.grid_m is None else self.grid_m[self.point_fit.sound]
 
     @cached_property
-    def relief(self) -> ResidualCurvature | None:
-        """What stands out of the held ellipsoid."""
+    def relief(self) -> Relief | None:
+        """Edges and relief over the held ellipsoid."""
         if self.held_ellipsoid is None:
             return None
         return measure_relief(

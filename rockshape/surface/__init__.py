@@ -3,16 +3,19 @@
 from rockshape.surface.basis import Knots
 from rockshape.surface.ellipsoid_curvature import body_bends_per_m
 from rockshape.surface.fit import MIN_POINTS, NET, Surface, fit_surface
+from rockshape.surface.height_map import HeightMap
 from rockshape.surface.normal_equations import Net
 from rockshape.surface.patch import SurfacePatch, view_patch
-from rockshape.surface.residual_curvature import ResidualCurvature, measure_relief
+from rockshape.surface.residual_curvature import RELIEF_SMOOTHING, Relief, measure_relief
 
 __all__ = [
     "MIN_POINTS",
     "NET",
+    "RELIEF_SMOOTHING",
+    "HeightMap",
     "Knots",
     "Net",
-    "ResidualCurvature",
+    "Relief",
     "Surface",
     "SurfacePatch",
     "body_bends_per_m",

@@ -1,31 +1,35 @@
-"""What stands out of a rock's ellipsoid, as a surface over the sphere the ellipsoid is."""
+"""What stands out of a rock's ellipsoid: edges and relief, over the sphere the ellipsoid is."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.ellipsoid.half_axes import Ellipsoid
 from rockshape.numerics.robust_scale import MEDIAN_TO_SIGMA
-from rockshape.surface.basis import Knots, evaluate
-from rockshape.surface.normal_equations import Net, bending, factorise, normal_equations, rows
+from rockshape.surface.basis import Knots
+from rockshape.surface.height_map import Cells, HeightMap, average_in_cells
+from rockshape.surface.normal_equations import Net
 
-NET = Net(u=Knots(24), w=Knots(24))
-SMOOTHING = 0.08  # radii: waves shorter than half a radius are flattened
-MIN_POINTS = 144  # a quarter of the net's vertices
-EDGE = 0.1  # cosine from the view beyond which points are left out
+NET = Net(u=Knots(32), w=Knots(32))
+EDGE_SMOOTHING = 0.03  # radii: sharper edges look alike
+RELIEF_SMOOTHING = 0.08  # radii: the relief is what this smoothing takes away
+MIN_POINTS = 144
+EDGE = 0.2  # cosine from the view beyond which points are left out
 FACING = 0.35  # cosine within which the relief is judged: nearer the limb range is thin
-OUTLIER = 6.0  # robust standard deviations from the first surface
-MAX_POINTS = 4000  # in a fixed shuffle: the smoothing needs no more
+OUTLIER = 6.0  # robust standard deviations from the smooth surface
+MAX_POINTS = 16_000  # in a fixed shuffle: some for each cell
 MIN_OUTLIER = 0.05  # radii: an edge stands less than this from the smoothed surface
 
 
 @dataclass(frozen=True)
-class ResidualCurvature:
-    """Second derivatives of the height over the ellipsoid, free of scale and unit."""
+class Relief:
+    """Edges and relief over the ellipsoid, free of scale and unit."""
 
-    bend: float  # RMS over the facing points of (r_xx + r_yy)/2
-    noise_bend: float  # the same of the draws of range noise
+    edge_bend_cubed: float  # third central moment of -(r_xx + r_yy)/2 over the facing cells
+    noise_bend_cubed: float  # standard deviation of that by range noise
+    rough: float  # robust standard deviation of the relief's height, over (abc)^(1/3)
+    noise_rough: float  # the same of the draws of range noise
     facing: int  # number of points judged
 
 
@@ -35,19 +39,21 @@ def measure_relief(
     *,
     draws_m: NDArray[np.float64] | None = None,
     rank: NDArray[np.float64] | None = None,
-) -> ResidualCurvature | None:
+) -> Relief | None:
     """Relief of points (n, 3) in the camera frame, the camera at the origin, over an ellipsoid.
 
     The map that takes the ellipsoid to the unit sphere takes the body's form and size out: each
     point becomes a direction and a height r = |y| - 1. The directions are laid out flat about the
-    view by Lambert's equal-area projection, x and y in radii, and a cubic B-spline surface r(x, y)
-    with the smoothing length 0.08 is fitted. An ellipsoid has bend 0 everywhere; an edge of radius
-    ρ across which the surface turns by θ adds about θ/ρ over a strip θρ wide, so that the square's
-    mean tells sharp edges from round ones where the mean of the absolute value cannot.
+    view by Lambert's equal-area projection, x and y in radii, and averaged in cells of 0.05, so
+    that a rock is sampled alike from near and far. Cubic B-spline surfaces r(x, y) of the smoothing
+    lengths 0.03 and 0.08 are fitted. An ellipsoid bends by 0 everywhere. Edges bend outwards
+    alone, relief as far in as out, and range noise as well: of the third central moment, which
+    adds up over what is independent, edges have all. The relief is what the longer smoothing takes
+    away; the share of the cells that edges cross hardly moves the median of its absolute height.
 
-    draws_m (n, k) are errors of z-depth like those of the points, from which the same surface
-    gives `noise_bend`. Of more than 4000 points those of the lowest rank (n,) are taken. Points 6
-    robust standard deviations off the first surface are left out.
+    draws_m (n, k) are errors of z-depth like those of the points, from which the same surfaces
+    tell what noise does. Of more than 16,000 points those of the lowest rank (n,) are taken. Points
+    6 robust standard deviations off the first surface are left out.
 
     None where the facing points leave the surface undetermined.
     """
@@ -63,28 +69,59 @@ def measure_relief(
         shuffle = np.random.default_rng(0)
         order = shuffle.permutation(len(keep)) if rank is None else np.argsort(rank[keep])
         keep = keep[order[:MAX_POINTS]]
+    direction = sphere[keep] / radius[keep][:, None]
     # displaced along the ray by dz: y moves by S A p/z dz, and r by its part along y
     ray = points_m[keep] / points_m[keep][:, 2:] @ ellipsoid.axes.T / ellipsoid.half_axes_m
-    slope = (sphere[keep] * ray).sum(axis=1) / radius[keep]
+    slope = (direction * ray).sum(axis=1)
     errors = np.empty((len(keep), 0)) if draws_m is None else draws_m[keep] * slope[:, None]
-    x, y = _flat(sphere[keep] / radius[keep][:, None], view)
-    heights = np.column_stack([radius[keep] - 1, errors])
-    fit = _bends(x, y, heights)
-    if fit is None:
+    # height along the ellipsoid's normal for a unit of r, over the rock's size
+    steep = np.sqrt(((direction / ellipsoid.half_axes_m) ** 2).sum(axis=1))
+    normal = 1 / (steep * np.cbrt(ellipsoid.half_axes_m.prod()))
+    place = np.column_stack([*_flat(direction, view), cosine[keep], normal])
+    return _relief(place, np.column_stack([radius[keep] - 1, errors]))
+
+
+def _relief(place: NDArray[np.float64], heights: NDArray[np.float64]) -> Relief | None:
+    """Relief of points with places (n, 4): x, y, cosine and normal; and heights (n, 1 + draws)."""
+    cells, surface = _surface(place, heights)
+    smooth = None if surface is None else surface.fit(RELIEF_SMOOTHING)
+    if smooth is None:
         return None
-    misfit = np.abs(fit[1])
+    misfit = np.abs(heights[:, 0] - smooth.heights[cells.cell, 0])
     sound = misfit <= max(OUTLIER * MEDIAN_TO_SIGMA * float(np.median(misfit)), MIN_OUTLIER)
     if not sound.all():
-        fit = _bends(x[sound], y[sound], heights[sound])
-    facing = cosine[keep][sound] > FACING
-    if fit is None or not facing.any():
+        cells, surface = _surface(place[sound], heights[sound])
+        smooth = None if surface is None else surface.fit(RELIEF_SMOOTHING)
+    fine = None if surface is None else surface.fit(EDGE_SMOOTHING)
+    facing = cells.place[:, 2] > FACING
+    if smooth is None or fine is None or not facing.any():
         return None
-    square = (fit[0][facing] ** 2).mean(axis=0)
-    return ResidualCurvature(
-        bend=float(np.sqrt(square[0])),
-        noise_bend=float(np.sqrt(square[1:].mean())) if len(square) > 1 else 0.0,
-        facing=int(facing.sum()),
+    bends = fine.bends[facing]
+    seen, draws = bends[:, :1], bends[:, 1:]
+    cubed = float(_cubed(seen)[0])
+    moved = np.concatenate([_cubed(seen + draws), _cubed(seen - draws)]) - cubed
+    relief = ((cells.heights - smooth.heights) * cells.place[:, 3:])[facing]
+    variance = (MEDIAN_TO_SIGMA * np.median(np.abs(relief), axis=0)) ** 2
+    return Relief(
+        edge_bend_cubed=cubed,
+        noise_bend_cubed=float(np.sqrt(np.mean(moved**2))) if len(moved) else 0.0,
+        rough=float(np.sqrt(variance[0])),
+        noise_rough=float(np.sqrt(variance[1:].mean())) if len(moved) else 0.0,
+        facing=int(cells.count[facing].sum()),
     )
+
+
+def _surface(
+    place: NDArray[np.float64], heights: NDArray[np.float64]
+) -> tuple[Cells, HeightMap | None]:
+    cells = average_in_cells(place, heights)
+    return cells, HeightMap.of(NET, cells.place[:, :2], cells.heights)
+
+
+def _cubed(bends: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Third central moments (k,) of columns of bends (n, k), those outwards positive."""
+    outwards = bends.mean(axis=0) - bends
+    return np.asarray((outwards**3).mean(axis=0))
 
 
 def _flat(
@@ -96,24 +133,3 @@ def _flat(
     across /= np.sqrt(across @ across)
     stretch = np.sqrt(2 / (1 + directions @ view))
     return stretch * (directions @ across), stretch * (directions @ np.cross(view, across))
-
-
-def _bends(
-    x: NDArray[np.float64], y: NDArray[np.float64], heights: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
-    """(r_xx + r_yy)/2 (n, k) of surfaces through columns of heights, and the first's misfit."""
-    low, size = (x.min(), y.min()), (float(np.ptp(x)), float(np.ptp(y)))
-    if min(size) <= 0:
-        return None
-    u, w = (x - low[0]) / size[0], (y - low[1]) / size[1]
-    along_u, along_w = evaluate(NET.u, u), evaluate(NET.w, w)
-    data = rows(NET, along_u, along_w)
-    bands, side = normal_equations(data, heights)
-    factor = factorise(bands + len(x) * SMOOTHING**4 * bending(NET, *size))
-    if factor is None:
-        return None
-    vertices = factor.solve(side)
-    bend_u = data.like(evaluate(NET.u, u, derivative=2), along_w).products / size[0] ** 2
-    bend_w = data.like(along_u, evaluate(NET.w, w, derivative=2)).products / size[1] ** 2
-    bend = replace(data, products=(bend_u + bend_w) / 2)
-    return bend.at(vertices), heights[:, 0] - data.at(vertices[:, 0])

@@ -89,6 +89,13 @@ def test_an_unknown_reading_is_told_the_nearest() -> None:
         rockshape.axis_ratio(MASK, method="papr")
 
 
+def test_the_roughness_of_points_is_that_of_the_view() -> None:
+    view = rocks.lumpy_rock()
+    grid = np.where(view.mask[..., None], view.grid_m, np.nan)
+    assert rockshape.roughness_3d(grid).reason is rockshape.Reason.NO_GROUND
+    assert np.isfinite(rockshape.roughness_3d(grid, ground=view.ground))
+
+
 @pytest.mark.parametrize("name", SOLID)
 def test_a_solid_measure_says_what_it_lacks(name: str) -> None:
     function = getattr(rockshape, name)

@@ -8,7 +8,8 @@ from rockshape.camera.camera import Camera
 from rockshape.ellipsoid import Ellipsoid
 from rockshape.ground import NoiseModel
 from rockshape.measures.angularity_3d import angularity_3d
-from rockshape.surface import ResidualCurvature, measure_relief
+from rockshape.measures.roughness_3d import roughness_3d
+from rockshape.surface import Relief, measure_relief
 from tests import solids
 
 BODY = Ellipsoid(
@@ -35,10 +36,14 @@ def dented(points: np.ndarray, height: float, waves: float) -> np.ndarray:
     return BODY.from_sphere(sphere * (1 + height * np.cos(waves * sphere[:, :1])))
 
 
-def bend(points: np.ndarray, body: Ellipsoid = BODY) -> float:
+def relief(points: np.ndarray, body: Ellipsoid = BODY) -> Relief:
     found = measure_relief(body, points)
     assert found is not None
-    return found.bend
+    return found
+
+
+def bend(points: np.ndarray, body: Ellipsoid = BODY) -> float:
+    return angularity_3d(relief(points, body))
 
 
 def cut(points: np.ndarray, rounding: float) -> np.ndarray:
@@ -54,16 +59,32 @@ def cut(points: np.ndarray, rounding: float) -> np.ndarray:
 
 def test_an_ellipsoid_has_none() -> None:
     # the range is exact
-    assert bend(known(seen(BODY))) < 1e-9
+    found = relief(known(seen(BODY)))
+    assert abs(found.edge_bend_cubed) < 1e-9
+    assert found.rough < 1e-9
 
 
-def test_a_wave_has_its_own_curvature() -> None:
+def test_relief_is_rough_and_no_edge() -> None:
     points = known(seen(BODY))
-    # RMS of half the Laplacian of 0.01 cos(k x) over the facing cap; x is one own axis, so that the
-    # wave's length on the chart is its own times the slope of the sphere
-    found = [bend(dented(points, height, 6.0)) for height in (0.01, 0.02)]
-    assert found[1] == pytest.approx(2 * found[0], rel=0.02)
-    assert 0.3 * 0.01 * 36 / 2 / np.sqrt(2) < found[0] < 0.01 * 36 / 2 / np.sqrt(2)
+    found = [relief(dented(points, height, 20.0)) for height in (0.002, 0.01)]
+    assert found[1].rough == pytest.approx(5 * found[0].rough, rel=0.05)
+    # of a wave's heights the median is its height over sqrt(2), and 1.483 of that is told; waves
+    # of a third of the radius keep 0.8 of it, and grow longer on the chart towards the sides
+    whole = 0.01 * 1.483 / np.sqrt(2)
+    assert 0.5 * whole < found[1].rough < 0.85 * whole
+    bends = 0.01 * 20**2 / 2  # of the wave's crests
+    assert abs(np.cbrt(found[1].edge_bend_cubed)) < 0.4 * bends
+
+
+def test_relief_hardly_moves_the_edges_that_it_lies_on(rng: np.random.Generator) -> None:
+    points = known(seen(BODY))
+    sharp = cut(points, 0.2)
+    sphere = BODY.to_sphere(sharp)
+    along = rng.standard_normal((3, 40))
+    along *= 22 / np.linalg.norm(along, axis=0)
+    waves = np.cos(sphere @ along + rng.uniform(0, 2 * np.pi, 40)).sum(axis=1)
+    rough = BODY.from_sphere(sphere * (1 + 0.004 * (waves / waves.std())[:, None]))
+    assert bend(rough) == pytest.approx(bend(sharp), rel=0.1)
 
 
 def test_sharp_edges_bend_more_than_round_ones() -> None:
@@ -119,13 +140,16 @@ def test_noise_is_taken_off(rng: np.random.Generator) -> None:
     draws = np.column_stack([noise.draw_m(depth, rng=rng)[inside] for _ in range(4)])
     found = measure_relief(BODY, noisy, draws_m=draws)
     assert found is not None
-    assert found.noise_bend > 0.1
-    assert found.bend > bend(exact)
-    assert angularity_3d(found) == pytest.approx(bend(exact), rel=0.1)
+    assert found.noise_bend_cubed > 0.01
+    assert found.rough > 1.1 * relief(exact).rough
+    assert roughness_3d(found) == pytest.approx(relief(exact).rough, abs=0.002)
+    assert angularity_3d(found) == pytest.approx(bend(exact), rel=0.15)
 
 
 def test_what_noise_or_pixels_hide_is_not_told() -> None:
-    assert np.isnan(angularity_3d(ResidualCurvature(bend=2.0, noise_bend=1.1, facing=5000)))
-    assert np.isnan(angularity_3d(ResidualCurvature(bend=2.0, noise_bend=0.1, facing=100)))
-    assert angularity_3d(ResidualCurvature(bend=0.5, noise_bend=0.6, facing=5000)) == 0
+    seen_well = {"rough": 0.01, "noise_rough": 0.0}
+    assert np.isnan(angularity_3d(Relief(9.0, 1e3, facing=5000, **seen_well)))
+    assert np.isnan(angularity_3d(Relief(9.0, 0.1, facing=100, **seen_well)))
+    assert angularity_3d(Relief(-0.5, 0.6, facing=5000, **seen_well)) == 0
+    assert roughness_3d(Relief(0.0, 0.0, rough=0.01, noise_rough=0.02, facing=5000)) == 0
     assert measure_relief(BODY, known(seen(BODY))[:100]) is None

@@ -16,6 +16,7 @@ SHARE = 0.02
 MOST = 0.05  # that a value may move by
 MIN_PX = 800  # of rocks with hundreds of points at the rim
 VALUES = ("ellipsoid_error", "sphericity_3d", "angularity_3d", "axis_a_m", "axis_b_m", "axis_c_m")
+NOUGHT = {"angularity_3d": 0.01}  # of a sphere; sharp rocks have 2.7
 
 Spoil = Callable[[np.ndarray, np.ndarray, np.ndarray, np.random.Generator], np.ndarray]
 
@@ -122,7 +123,7 @@ def test_no_robust_value_moves_by_more_than_a_twentieth(
     for value in VALUES:
         assert found[value].isna().tolist() == clean[value].isna().tolist()
         assert found[value].to_numpy() == pytest.approx(
-            clean[value].to_numpy(), rel=MOST, nan_ok=True
+            clean[value].to_numpy(), rel=MOST, abs=NOUGHT.get(value, 0.0), nan_ok=True
         )
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from typing import Literal, ParamSpec, TypeVar
 
-Trait = Literal["angularity", "roundness", "form"]
+Trait = Literal["angularity", "roundness", "roughness", "form"]
 _P = ParamSpec("_P")
 _T = TypeVar("_T")
 _ATTRIBUTE = "expected_trait"

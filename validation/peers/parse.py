@@ -23,6 +23,7 @@ TRIAL_LIMIT_S = 60.0
 _BY_NAME: dict[str, Trait] = {
     "angularity": "angularity",
     "roundness": "roundness",
+    "roughness": "roughness",
     "sphericity": "form",
     "axis_ratio": "form",
 }

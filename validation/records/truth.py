@@ -24,6 +24,7 @@ class RockTruth(Struct, frozen=True, kw_only=True):
     maximum_projection_sphericity: float
     roundness: float | None
     wadell_sphericity: float | None
+    relief_rms_m: float | None = None
 
 
 class RockInView(Struct, frozen=True, kw_only=True):
@@ -87,6 +88,7 @@ def rock_columns(rock: RockTruth) -> dict[str, object]:
     """Rock's truth as columns of the results; NaN where there is none."""
     a, b, c = rock.half_axes_box_m
     roundness = np.nan if rock.roundness is None else rock.roundness
+    rough = np.nan if rock.relief_rms_m is None else rock.relief_rms_m / np.cbrt(a * b * c)
     wadell = np.nan if rock.wadell_sphericity is None else rock.wadell_sphericity
     return {
         "instance": rock.instance,
@@ -97,6 +99,7 @@ def rock_columns(rock: RockTruth) -> dict[str, object]:
         "truth_axis_c_m": c,
         "truth_roundness": roundness,
         "truth_angularity": 1.0 - roundness,
+        "truth_roughness": rough,
         "truth_maximum_projection_sphericity": rock.maximum_projection_sphericity,
         "truth_wadell_sphericity": wadell,
     }

@@ -12,6 +12,7 @@ from validation.scores.score import Key, Score
 _TRUTHS = {
     "truth_angularity": "angularity",
     "truth_roundness": "angularity",  # one order, read from either end
+    "truth_roughness": "roughness",
     "truth_maximum_projection_sphericity": "form",
     "truth_axis_ratio": "form",
     "truth_rectangle_ratio": "form",

@@ -20,6 +20,7 @@ from validation.suite.experiment import Experiment
 TRUTH_TITLES = {
     "truth_angularity": "true angularity, 1 − roundness",
     "truth_roundness": "true roundness",
+    "truth_roughness": "RMS of the relief over the size",
     "truth_maximum_projection_sphericity": "true maximum projection sphericity",
     "truth_axis_ratio": "true axis ratio",
     "truth_rectangle_ratio": "true short over long side",

@@ -18,13 +18,14 @@ TURNS_WITH_THE_PICTURE = {"paper sphericity_2d"}  # its box is upright
 # the same points in another order: rounding, and a search that stops within 1e-10 of its sum of
 # squares, so within about the root of that of its minimum
 SAME = 1e-5
-# the held ellipsoid is fitted to 600 points and 240 rays of a fixed shuffle, the relief to 4,000:
+# the held ellipsoid is fitted to 600 points and 240 rays of a fixed shuffle, the relief to 16,000:
 # in another order they are others, and on a rock that is far from any ellipsoid the values moved by
 # up to 0.044, 0.015 and 0.15
 SAMPLED = {
     "robust ellipsoid_error": 0.08,
     "robust sphericity_3d": 0.03,
     "robust angularity_3d": 0.2,
+    "robust roughness_3d": 0.1,  # its cells lie otherwise
 }
 # other pixels: an outline of 430 points, a surface of 14,000
 OTHER_PIXELS = 0.05
@@ -98,11 +99,12 @@ def test_an_exact_motion_of_the_picture_changes_nothing(
 def test_a_rolled_camera_sees_the_same_rock(
     case: Case, rock: RockView, rolled: list[RockView]
 ) -> None:
-    change = max(abs(case.value(view) / case.value(rock) - 1) for view in rolled)
+    found = np.array([case.value(view) for view in rolled])
     if case.name in TURNS_WITH_THE_PICTURE:
-        assert change > 0.2
+        assert np.abs(found / case.value(rock) - 1).max() > 0.2
     else:
-        assert change < OTHER_PIXELS_OF.get(case.name, OTHER_PIXELS)
+        near = OTHER_PIXELS_OF.get(case.name, OTHER_PIXELS)
+        assert found == pytest.approx(np.full(3, case.value(rock)), rel=near)
 
 
 @every_measure
@@ -115,12 +117,13 @@ def test_size_in_metres_counts_by_its_power(case: Case, rock: RockView) -> None:
 
 @every_measure
 def test_size_in_pixels_counts_by_its_power(case: Case, rock: RockView, closer: RockView) -> None:
-    growth = case.value(closer) / case.value(rock)
+    once, twice = case.value(rock), case.value(closer)
     if case.name in FALLS_WITH_PIXELS:
-        assert growth < 0.8
+        assert twice < 0.8 * once
     else:
         power, _ = POWERS[case.measure.unit]
-        assert growth == pytest.approx(2**power, rel=OTHER_PIXELS_OF.get(case.name, OTHER_PIXELS))
+        near = OTHER_PIXELS_OF.get(case.name, OTHER_PIXELS)
+        assert twice == pytest.approx(2**power * once, rel=near)
 
 
 @every_measure

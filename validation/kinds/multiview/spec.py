@@ -10,7 +10,7 @@ from validation.kinds.multiview.sweep import Sweep
 from validation.suite.experiment import MeasuredExperiment
 from validation.suite.scene import check_scene_is_single, with_renderer
 
-Varied = Literal["angularity", "form"]
+Varied = Literal["angularity", "roughness", "form"]
 
 
 class MultiviewExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="multiview"):

@@ -18,6 +18,7 @@ from validation.scores.titles import REFERENCE
 # angularity, whose truth is 1 − roundness.
 _TRAITS: dict[Varied, tuple[Trait, ...]] = {
     "angularity": ("angularity", "roundness"),
+    "roughness": ("roughness",),
     "form": ("form",),
 }
 _FORM = "maximum_projection_sphericity"  # truth of a solid's form

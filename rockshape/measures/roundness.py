@@ -25,7 +25,7 @@ however long the rock is.
 Degenerate: 1 where nothing bends more than the inscribed circle. Contacts, edges that neighbours or
 ignored regions have made, are no corners, and are left out with two deviations of the smoothing on
 either side; with less than half of the outline left it refuses. It refuses rocks that the frame
-cuts or less than 12 px wide.
+cuts or less than 10 px wide.
 
 Source: Wadell (1932), Volume, shape, and roundness of rock particles.
 """
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-MIN_WIDTH_PX = 12.0  # least Feret diameter
+MIN_WIDTH_PX = 10.0  # least Feret diameter
 MIN_POINTS = 30
 
 

@@ -36,7 +36,7 @@ from numpy.typing import NDArray
 from rockshape.ellipse.moments import moment_ellipse
 from rockshape.measures.measure import Measure
 from rockshape.measures.reading import Reason
-from rockshape.outline.form import EVEN_POINTS, Form
+from rockshape.outline.form import EVEN_POINTS, OutlineForm
 from rockshape.outline.resample import even_outline
 from rockshape.rock.view import MIN_OUTLINE_SHARE, RockView
 
@@ -114,7 +114,7 @@ def _unit_chords(outline: NDArray[np.float64], nearest: int, farthest: int) -> N
 
 
 def angularity_beyond_form(
-    form: Form, own: NDArray[np.bool_] | None = None, *, alpha: int = ALPHA
+    form: OutlineForm, own: NDArray[np.bool_] | None = None, *, alpha: int = ALPHA
 ) -> float:
     """What the spread of the flattest angles has beyond that of the form's ellipse, in radians.
 

@@ -26,7 +26,7 @@ _PIXEL_NOISE = 0.048  # of the curvature's variance, times sigma^5 (px); discs o
 
 
 @dataclass(frozen=True, eq=False)
-class Form:
+class OutlineForm:
     """Closed outline smoothed by `sigma`, with its curvature, at 256 points.
 
     Lengths are in the outline's unit, pixels for a mask.
@@ -52,7 +52,7 @@ class Form:
 
 def form_of(
     edge: NDArray[np.float64], *, staircase: bool, share: float = FORM_SHARE
-) -> Form | None:
+) -> OutlineForm | None:
     """Form of a closed outline (n, 2), the same however it was traced.
 
     The outline as a function of its length is smoothed by sigma = 0.12 sqrt(A / pi), as
@@ -75,7 +75,7 @@ def form_of(
         np.fft.ifft(smooth * (1j * wave) ** order) * _POINTS for order in (0, 1, 2)
     )
     speed = np.abs(first)
-    return Form(
+    return OutlineForm(
         points=np.column_stack([place.real, place.imag]),
         lengths=speed * length / _POINTS,
         curvature=(first.real * second.imag - first.imag * second.real) / speed**3,

@@ -8,7 +8,7 @@ corners meet or a ripple comes and goes. What the smoothing does to corners is u
 import numpy as np
 from numpy.typing import NDArray
 
-from rockshape.outline.form import Form
+from rockshape.outline.form import OutlineForm
 from rockshape.outline.inscribed_circle import inscribed_radius
 
 # Wadell's roundness by the bend's share and the form's scale, linear between:
@@ -22,7 +22,7 @@ CURVE = (
 )
 
 
-def wadell_roundness(form: Form, free: NDArray[np.bool_] | None = None) -> float:
+def wadell_roundness(form: OutlineForm, free: NDArray[np.bool_] | None = None) -> float:
     """Mean radius of the corners over the radius R of the largest inscribed circle.
 
     Where a smooth outline bends outward with the curvature k along a length s, the radius
@@ -44,7 +44,7 @@ def wadell_roundness(form: Form, free: NDArray[np.bool_] | None = None) -> float
     return max(0.0, float(np.interp(form.scale, SCALES, levels)))
 
 
-def bend_share(form: Form, free: NDArray[np.bool_] | None = None) -> float:
+def bend_share(form: OutlineForm, free: NDArray[np.bool_] | None = None) -> float:
     """Radius of the turning's root mean square curvature over the inscribed circle's, at most 1."""
     outward = np.maximum(form.curvature, 0.0)
     turning = outward * form.lengths * (1.0 if free is None else free)

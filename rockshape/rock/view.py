@@ -16,7 +16,7 @@ from rockshape.ellipse.moments import moment_ellipse
 from rockshape.ellipsoid import Ellipsoid, EllipsoidFit, fit_ellipsoid
 from rockshape.outline.edge import edge_of
 from rockshape.outline.extent import MIN_WIDTH_PX, feret_diameters
-from rockshape.outline.form import Form, form_of
+from rockshape.outline.form import OutlineForm, form_of
 from rockshape.outline.resample import pixel_smooth, pixel_steps
 from rockshape.outline.trace import trace_outline
 from rockshape.rock.contacts import contact_points
@@ -108,7 +108,7 @@ class RockView:
         return pixel_smooth(self.edge_px)
 
     @cached_property
-    def form(self) -> Form | None:
+    def form(self) -> OutlineForm | None:
         """The edge's form, at the same share of any rock's size; None for an edge without area."""
         return form_of(self.edge_px, staircase=not self.has_subpixel_edge)
 

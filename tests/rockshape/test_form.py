@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from rockshape.outline.edge import trace_edge
-from rockshape.outline.form import FORM_SHARE, LEAST_SIGMA_PX, Form, form_of
+from rockshape.outline.form import FORM_SHARE, LEAST_SIGMA_PX, OutlineForm, form_of
 from tests import solids
 
 
-def form(edge: np.ndarray, *, staircase: bool = True) -> Form:
+def form(edge: np.ndarray, *, staircase: bool = True) -> OutlineForm:
     found = form_of(edge, staircase=staircase)
     assert found is not None
     return found

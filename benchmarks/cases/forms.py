@@ -164,5 +164,5 @@ FORMS_CASE = Case(
     name="forms",
     what="form of scans and families held out, by each part of the whole body",
     run=forms,
-    smallest={"sets": ("rounded-polyhedron",), "views": 1, "preset": "imp"},
+    smallest={"sets": ("rounded-polyhedron",), "views": 1, "preset": "msl-navcam"},
 )

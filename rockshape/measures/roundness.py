@@ -1,7 +1,7 @@
 """Roundness: Wadell's, how worn the corners of the outline are.
 
 Meaning: the field's standard of a grain's wear: small where corners are sharp, 1 where none is
-sharper than the largest circle inside. Independent of form for boxes and polygons.
+sharper than the largest circle inside.
 
 Formula: Wadell's (1/n) sum r_i / R, the mean radius of the n corners over that of the largest
 inscribed circle, read at one scale: the outline is smoothed by 0.12 of the radius of the disc of
@@ -13,8 +13,9 @@ measure, and what it calls roundness rises with angularity.
 Range and unit: 0 to 1, a pure number.
 
 Blind to: dents, corners' number, and ripples shorter than half the radius of the disc of equal
-area, which are texture. On the exact scale for rocks of seven to eleven corners; the fewer corners,
-the sharper it reads: squares by 0.05 to 0.15, ellipses as much rounder.
+area, which are texture. On the exact scale for rocks of seven to eleven corners; with fewer corners
+it reads sharper, a square of 0.2 as 0.05 and a box of 0.4 as 0.28, and ellipses by up to 0.2
+rounder.
 
 Smallest size: 30 px. The scale is the same share of any rock from 30 px on, so that rough
 silhouettes have the same mean within 0.03 from 60 to 400 px; below 30 px it is 1.8 px, and more of

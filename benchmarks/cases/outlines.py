@@ -243,7 +243,7 @@ OUTLINES_CASE = Case(
     name="outlines",
     what="2-D measures on 81 graded rough silhouettes by size in pixels",
     run=chart_by_size,
-    smallest={"sizes_px": (60,)},
+    smallest={"sizes_px": (60,), "charts": 1},
 )
 PEBBLES_CASE = Case(
     name="pebbles",
@@ -255,5 +255,5 @@ FORM_SCALE_CASE = Case(
     name="form_scale",
     what="what the scale of the form does to roundness and angularity",
     run=ablation,
-    smallest={"scenes": 1, "draws": 20},
+    smallest={"charts": 1, "scenes": 1, "draws": 20},
 )

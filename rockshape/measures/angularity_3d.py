@@ -25,6 +25,7 @@ Smallest size: `paper` 100 points; its value falls as pixels grow. `robust` 200 
 above that of a value of 2.2: for a Navcam of 0.42 m baseline and rocks of 0.35 m from about 3 m on.
 
 Degenerate: NaN where the surface is undetermined or, `robust`, the ellipsoid.
+Where 3 % of a rock's points share a wrong value the third moment moves by up to 30 %.
 
 Source: Fox et al. (2002), equations 12 to 17.
 """

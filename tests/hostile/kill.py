@@ -76,7 +76,7 @@ def _prepare(name: str, out: Path) -> None:
     """Old outputs, where there are some before a run."""
     if name == "measure":
         out.mkdir()
-        for file in ("out.csv", "found.png", "over.png", "page.html"):
+        for file in ("out.csv", "out.csv.meta.json", "found.png", "over.png", "page.html"):
             (out / file).write_bytes(b"old")
 
 

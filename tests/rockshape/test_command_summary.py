@@ -34,13 +34,17 @@ def test_without_range_the_line_says_what_is_missing_and_what_to_give(
     frame, parts = measured(capsys, tmp_path, GRAINS_IMAGE, "--labels", GRAINS_LABELS)
     missing = frame[FLAT].isna().any(axis=1)
     cut = frame["truncated"] & missing
-    small = missing & ~frame["truncated"]  # narrow grains have no roundness
-    assert frame.loc[small, "roundness"].isna().all()
-    assert small.sum() > cut.sum() > 0  # the more frequent reason comes first
+    told = frame.loc[missing, "reason"].str.split("; ")
+    small, touching = (
+        int(told.map(lambda reasons, why=why: why in reasons).sum())
+        for why in ("too small", "contacts")
+    )
+    assert small > cut.sum() > touching > 0  # the more frequent reason comes first
     assert 0 < missing.sum() < len(frame)
+    why = f"too small {small}, truncated {cut.sum()}, contacts {touching}"
     assert "; ".join(parts) == (
         f"{len(frame)} rocks; all 2-D measures of {(~missing).sum()}, some missing in "
-        f"{missing.sum()} (too small {small.sum()}, truncated {cut.sum()}); {NO_RANGE}"
+        f"{missing.sum()} ({why}); {NO_RANGE}"
     )
 
 

@@ -55,7 +55,9 @@ def test_the_paper_goes_without_saying(suite) -> None:
 
 def test_drawings_make_no_claim_that_needs_range() -> None:
     drawings = ShapesExperiment(name="s", title="S", seed=1, drawings=1)
-    yard = MultiviewExperiment(name="y", title="Y", seed=1, scenes=1, varied=("angularity", "form"))
+    yard = MultiviewExperiment(
+        name="y", title="Y", seed=1, scenes=1, varied=("angularity", "form", "roughness")
+    )
     suite = Suite(name="s", title="S", experiments=(drawings, yard), gates=(GATE,))
     ranged = {m.column for one in methods().values() for m in one.measures if m.needs_range}
     assert not ranged & {claim.measure for claim in claims_of(suite, drawings)}

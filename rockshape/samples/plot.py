@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 PERCENTS = tuple(float(percent) for percent in range(1, 100))
-AXES = ("axis_a_m", "axis_b_m", "axis_c_m")
 _DRAWS = 300
 
 
@@ -25,8 +24,8 @@ def plot_samples(samples: Mapping[str, Sample], weighting: Weighting) -> "Figure
     from matplotlib.figure import Figure  # noqa: PLC0415 - half a second that few need
 
     panels = [_curves]
-    panels += [_zingg] if any(len(_forms(each)) for each in samples.values()) else []
-    panels += [_roundness] if any(len(_rounded(each)) for each in samples.values()) else []
+    panels += [_zingg] if any(len(each.half_axes_m) for each in samples.values()) else []
+    panels += [_roundness] if any(len(each.roundness) for each in samples.values()) else []
     figure = Figure(figsize=(5 * len(panels), 4.2), layout="constrained")
     for axes, draw in zip(np.atleast_1d(figure.subplots(1, len(panels))), panels, strict=True):
         draw(axes, samples, weighting)
@@ -59,7 +58,7 @@ def _curves(axes: "Axes", samples: Mapping[str, Sample], weighting: Weighting) -
 
 def _zingg(axes: "Axes", samples: Mapping[str, Sample], weighting: Weighting) -> None:  # noqa: ARG001
     for name, sample in samples.items():
-        a, b, c = _forms(sample).T
+        a, b, c = sample.half_axes_m.T
         axes.plot(c / b, b / a, "o", markersize=4, alpha=0.7, label=name)
     axes.axvline(ZINGG_BOUND, color="grey", linewidth=0.8)
     axes.axhline(ZINGG_BOUND, color="grey", linewidth=0.8)
@@ -72,21 +71,8 @@ def _zingg(axes: "Axes", samples: Mapping[str, Sample], weighting: Weighting) ->
 def _roundness(axes: "Axes", samples: Mapping[str, Sample], weighting: Weighting) -> None:  # noqa: ARG001
     edges = np.linspace(0, 1, 11)
     for name, sample in samples.items():
-        values = _rounded(sample)
+        values = sample.roundness
         if len(values):
             shares: Any = 100 * np.histogram(values, edges)[0] / len(values)
             axes.stairs(shares, edges, label=name)
     axes.set(xlim=(0, 1), xlabel="roundness (Wadell)", ylabel="rocks, %", title="roundness")
-
-
-def _forms(sample: Sample) -> np.ndarray:
-    """Axes (n, 3) of the rocks that have all three."""
-    if not all(name in sample.table for name in AXES):
-        return np.empty((0, 3))
-    return sample.table[list(AXES)].dropna().to_numpy(np.float64)
-
-
-def _rounded(sample: Sample) -> np.ndarray:
-    if "roundness" not in sample.table:
-        return np.empty(0)
-    return sample.table["roundness"].dropna().to_numpy(np.float64)

@@ -13,6 +13,9 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
+AXES = ("axis_a_m", "axis_b_m", "axis_c_m")
+
+
 @dataclass(frozen=True, eq=False)
 class Sample:
     """Counted rocks with their sizes; why others are left out, with their numbers."""
@@ -25,6 +28,20 @@ class Sample:
 
     def __len__(self) -> int:
         return len(self.sizes)
+
+    @property
+    def half_axes_m(self) -> Floats:
+        """Half-axes (k, 3), longest first, of the rocks that have all three."""
+        if not all(name in self.table for name in AXES):
+            return np.empty((0, 3))
+        return self.table[list(AXES)].dropna().to_numpy(np.float64)
+
+    @property
+    def roundness(self) -> Floats:
+        """Roundness (k,) of the rocks that have it."""
+        if "roundness" not in self.table:
+            return np.empty(0)
+        return self.table["roundness"].dropna().to_numpy(np.float64)
 
 
 def sample_of(

@@ -1,9 +1,5 @@
 """Making of a summary from a sample."""
 
-from typing import TYPE_CHECKING
-
-import numpy as np
-
 from rockshape.samples import form_classes
 from rockshape.samples.abundance import Abundance, fit_abundance
 from rockshape.samples.folk_ward import PERCENTS as FOLK_WARD_PERCENTS
@@ -13,11 +9,7 @@ from rockshape.samples.sample import Sample
 from rockshape.samples.summary import Distribution, Summary
 from rockshape.samples.weighting import WEIGHTINGS, Weighting
 
-if TYPE_CHECKING:
-    import pandas as pd
-
 MIN_ROCKS = 5  # for a distribution
-AXES = ("axis_a_m", "axis_b_m", "axis_c_m")
 
 
 def summary_of(
@@ -28,7 +20,7 @@ def summary_of(
     The abundance is that of rocks wider than `least_m`, by default the smallest of the sample.
     """
     enough = len(sample) >= MIN_ROCKS
-    classes, classified = _classes(sample.table)
+    classes, classified = _classes(sample)
     return Summary(
         sample=sample,
         distributions=tuple(_distribution(sample, each) for each in WEIGHTINGS.values())
@@ -51,7 +43,7 @@ def _distribution(sample: Sample, weighting: Weighting) -> Distribution:
     return Distribution(weighting, PERCENTS, values, low, high, graphic)
 
 
-def _classes(table: "pd.DataFrame") -> tuple[dict[str, dict[str, float]], dict[str, int]]:
+def _classes(sample: Sample) -> tuple[dict[str, dict[str, float]], dict[str, int]]:
     """Shares of the classes that the table's columns tell."""
     found: dict[str, dict[str, float]] = {}
     counted: dict[str, int] = {}
@@ -62,17 +54,11 @@ def _classes(table: "pd.DataFrame") -> tuple[dict[str, dict[str, float]], dict[s
             found[scheme] = dict(zip(names, shares.tolist(), strict=True))
             counted[scheme] = len(classes)
 
-    if all(name in table for name in AXES):
-        a, b, c = (table[name].to_numpy(np.float64) for name in AXES)
-        known = np.isfinite(a) & np.isfinite(b) & np.isfinite(c)
-        a, b, c = a[known], b[known], c[known]
-        tell("Zingg", form_classes.ZINGG, form_classes.zingg(a, b, c))
-        tell("Sneed and Folk", form_classes.SNEED_FOLK, form_classes.sneed_folk(a, b, c))
-    if "roundness" in table:
-        roundness = table["roundness"].to_numpy(np.float64)
-        roundness = roundness[np.isfinite(roundness)]
-        tell("Powers", form_classes.POWERS, form_classes.powers(roundness))
-        tell("Krumbein", form_classes.KRUMBEIN, form_classes.krumbein(roundness))
+    a, b, c = sample.half_axes_m.T
+    tell("Zingg", form_classes.ZINGG, form_classes.zingg(a, b, c))
+    tell("Sneed and Folk", form_classes.SNEED_FOLK, form_classes.sneed_folk(a, b, c))
+    tell("Powers", form_classes.POWERS, form_classes.powers(sample.roundness))
+    tell("Krumbein", form_classes.KRUMBEIN, form_classes.krumbein(sample.roundness))
     return found, counted
 
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from rockshape.ellipse.direct import Ellipse
 from rockshape.ellipsoid import Ellipsoid
 from rockshape.measures import Measure, Reading, Reason
+from rockshape.measures.reading import listed
 from rockshape.method import Method, find_method
 from rockshape.observation import Observation
 from rockshape.outline.descriptors import Descriptors
@@ -80,11 +81,11 @@ class Rock:
 
     @property
     def reason(self) -> str:
-        """Why values are NaN, each reason said once; empty where none is."""
-        reasons = [reading.reason for reading in self.readings.values() if reading.reason]
+        """Why values are NaN, each reason with its columns; empty where none is."""
+        reasons = [(name, one.reason) for name, one in self.readings.items() if one.reason]
         if self.descriptors is not None and self.descriptors.unresolved:
-            reasons.append(Reason.TOO_SMALL)
-        return "; ".join(dict.fromkeys(reasons))
+            reasons.append(("descriptors", Reason.TOO_SMALL))
+        return listed(reasons)
 
     def __getattr__(self, name: str) -> Reading:
         """Reading of a measure by its column: `rock.roundness`."""

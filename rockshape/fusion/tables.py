@@ -8,6 +8,7 @@ import pandas as pd
 from rockshape.fusion.fused_rock import FusedRock
 from rockshape.fusion.posed_view import PosedView
 from rockshape.measurement import AXES, to_frame
+from rockshape.measures.reading import listed
 
 PLACE = ("rock", "views", "x_m", "y_m", "z_m", "gap_deg", "boxed")
 
@@ -47,8 +48,8 @@ def _row(rock: FusedRock, views: Sequence[PosedView]) -> dict[str, object]:
         row |= {name: told.value, f"{name}_sd": told.sd, f"{name}_view_sd": told.view_sd}
     missing = [name for name, told in rock.values.items() if np.isnan(told.value)]
     sights = [views[each.view].rocks[each.rock].rock for each in rock.sights]
-    reasons = [one.readings[name].reason for name in missing for one in sights]
-    row["reason"] = "; ".join(dict.fromkeys(str(reason) for reason in reasons if reason))
+    reasons = [(name, one.readings[name].reason) for name in missing for one in sights]
+    row["reason"] = listed((name, reason) for name, reason in reasons if reason)
     return row
 
 

@@ -1,5 +1,6 @@
 """Reading of a measure: a number with its unit, or NaN with the reason."""
 
+from collections.abc import Iterable
 from enum import StrEnum
 from typing import Self
 
@@ -18,6 +19,20 @@ class Reason(StrEnum):
     CONTACTS = "contacts"
     DEGENERATE = "degenerate"
     NOT_RESOLVABLE = "not resolvable"
+
+
+def listed(reasons: Iterable[tuple[str, Reason]]) -> str:
+    """Reasons of columns that lack a value in a line, each once with its columns in brackets.
+
+    `no range` stands alone: it holds for all columns that need range.
+    """
+    columns: dict[Reason, dict[str, None]] = {}
+    for column, reason in reasons:
+        columns.setdefault(reason, {})[column] = None
+    return "; ".join(
+        reason if reason is Reason.NO_RANGE else f"{reason} ({', '.join(names)})"
+        for reason, names in columns.items()
+    )
 
 
 class Reading(float):

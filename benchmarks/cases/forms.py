@@ -57,7 +57,7 @@ def _completed(view: RockView, body: Ellipsoid, *, grounded: bool, carved: bool)
         seen_past, mask=view.mask, corner=view.corner, camera=view.camera, grid_m=view.grid_m
     )
     whole = completed(
-        visible_surface(body, view.grid_m, view.point_fit.known, view.noise),
+        visible_surface(body, view.grid_m, view.point_fit.attached, view.noise),
         body,
         plane=view.ground.plane if grounded else None,
         seen_past=outside if carved else _nothing_seen,

@@ -6,10 +6,10 @@ from scipy.spatial import ConvexHull, QhullError
 from rockshape.body.lattice import spread_directions
 from rockshape.numerics.arrays import Floats
 
-SIDES = 100  # directions, half of them tried: the facet nearest to each bears a side of the box
+SIDES = 200  # directions, half of them tried: the facet nearest to each bears a side of the box
 TURNS = 30  # about each, over a right angle
 FINER = (0.1, 0.01)  # of a turn: steps of the two searches about the best
-SPREAD = 0.005  # of the volume: boxes that are larger by this much count 1/e of the smallest
+SPREAD = 0.01  # of the volume: boxes that are larger by this much count 1/e of the smallest
 
 
 def box_half_axes_m(points_m: Floats) -> Floats | None:
@@ -17,9 +17,9 @@ def box_half_axes_m(points_m: Floats) -> Floats | None:
 
     One side is flush with a facet of the convex hull, and the box is turned about that side's
     normal to its least volume V: first by steps of three degrees, then by finer ones. Boxes of
-    nearly one volume may be turned far apart, and their sides differ by a tenth; so that noise does
-    not choose, the sides are geometric means over the boxes of all facets tried, weighted by
-    exp(-(V/V₀ - 1)/0.005) with V₀ the least.
+    nearly one volume may be turned far apart, and their sides differ by a tenth; so that noise and
+    a few points do not choose, the sides are geometric means over the boxes of all facets tried,
+    weighted by exp(-(V/V₀ - 1)/0.01) with V₀ the least.
 
     Source: O'Rourke (1985), Finding minimal enclosing boxes, for sides flush with facets.
     """

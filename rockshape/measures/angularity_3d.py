@@ -6,12 +6,14 @@ Formula: `paper` the mean over the points of |(Q_uu + Q_ww)/2|, Q a B-spline sur
 plane (equations 12 to 17). `robust` the cube root of the third central moment of
 -(r_xx + r_yy)/2, r the height over the held ellipsoid in the map that makes it the unit sphere, so
 that the body's own curvature and size are out. The surface is sampled in even cells of 0.05 radii
-and smoothed by 0.03. Edges bend outwards alone; relief and range noise bend as far in as out and
-have no third moment, and third moments of what is independent add up.
+and smoothed by 0.03, or by 0.45 of the points' distance where that is more. Bends count up to three
+standard deviations from their mean, and less towards the limb. Edges bend outwards alone; relief
+and range noise bend as far in as out and have no third moment, and third moments of what is
+independent add up.
 
 Range and unit: `paper` 1/m, so half the size has twice the value; with u and w in 0..1 as the paper
 has them it is in metres, times the patch's size squared. `robust` no unit: 0 for an ellipsoid,
-about 1.1 for worn and 2.7 for sharp polyhedra.
+about 1.1 for worn and 2.6 for sharp polyhedra.
 
 Blind to: `paper` the rounding of edges, since across an edge the second derivative adds up to the
 change of slope, however sharp or round it is; nor is it 0 on a sphere, where out to the radius r a
@@ -25,7 +27,6 @@ Smallest size: `paper` 100 points; its value falls as pixels grow. `robust` 200 
 above that of a value of 2.2: for a Navcam of 0.42 m baseline and rocks of 0.35 m from about 3 m on.
 
 Degenerate: NaN where the surface is undetermined or, `robust`, the ellipsoid.
-Where 3 % of a rock's points share a wrong value the third moment moves by up to 30 %.
 
 Source: Fox et al. (2002), equations 12 to 17.
 """

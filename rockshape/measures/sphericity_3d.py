@@ -20,8 +20,8 @@ Smallest size: 30 points of range. On exact range rocks of 25 px across still ha
 limits it is range noise, and less so held (`python benchmarks/run.py solids`).
 
 Degenerate: NaN for fewer points, points on one line, an axis that the points do not determine (it
-stands at its bound) and a search that did not converge. Of `robust` whole rows or columns of range
-that are off by a third of the rock are not told from it: an axis can then be 47 % too long.
+stands at its bound) and a search that did not converge. Rows or columns of range that are off are
+left out of `robust` as outliers are, where they hold less than a fiftieth of the points.
 
 Source: Sneed and Folk (1958); Fox et al. (2002), equation 2, which names it beside Krumbein's.
 """

@@ -16,6 +16,8 @@ from rockshape.ellipsoid import (
     fit_held_ellipsoid,
     fit_without_outliers,
 )
+from rockshape.ellipsoid.outliers import SAME
+from rockshape.rock.stray_points import stray_points
 
 if TYPE_CHECKING:
     from rockshape.ground import Ground
@@ -39,6 +41,7 @@ class PointFit:
 
     ellipsoid: Ellipsoid | None  # None where it is not determined
     sound: NDArray[np.bool_]  # (rows, cols), the rock's pixels whose point is no outlier
+    attached: NDArray[np.bool_]  # (rows, cols), those whose point hangs together with the surface
     known: NDArray[np.bool_]  # (rows, cols), those with a point
     rank: NDArray[np.float64]  # (rows, cols), by which points are sampled
 
@@ -75,8 +78,9 @@ def fit_points(
     """Constrained ellipsoid of the points grid_m (rows, cols, 3) under a mask (rows, cols).
 
     corner is the row and column of the mask's first pixel in the image. Points are sampled by a
-    rank that stays with the pixel, whichever others have a point. An axis at its bound or a search
-    that has not converged is no fit.
+    rank that stays with the pixel, whichever others have a point. Outliers are also the
+    `stray_points`; where these are more than a thousandth of the points, the fit is repeated
+    without them. An axis at its bound or a search that has not converged is no fit.
     """
     known = np.asarray(mask & np.isfinite(grid_m).all(axis=-1))
     rank = _even_rank(mask.shape)
@@ -105,7 +109,25 @@ def fit_points(
         )
 
     found, sound = fit_without_outliers(points_m, fit)
-    kept = known.copy()
-    kept[known] = sound
+    attached = known
+    if found is not None:
+        attached = known & ~stray_points(found.ellipsoid, grid_m, known, noise)
+        kept = sound & attached[known]
+        if (kept != sound).mean() > SAME:
+            found = fit(kept, found.ellipsoid)
+        sound = kept
     good = found is not None and found.converged and not found.bounded
-    return PointFit(found.ellipsoid if found is not None and good else None, kept, known, rank)
+    return PointFit(
+        ellipsoid=found.ellipsoid if found is not None and good else None,
+        sound=_on_pixels(known, sound),
+        attached=attached,
+        known=known,
+        rank=rank,
+    )
+
+
+def _on_pixels(known: NDArray[np.bool_], which: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Mask (rows, cols) of which (n,) of the pixels known (rows, cols)."""
+    mask = known.copy()
+    mask[known] = which
+    return mask

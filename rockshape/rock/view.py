@@ -186,7 +186,7 @@ class RockView:
         if self.held_ellipsoid is None or self.grid_m is None:
             return None
         visible_m = visible_surface(
-            self.held_ellipsoid, self.grid_m, self.point_fit.known, self.noise
+            self.held_ellipsoid, self.grid_m, self.point_fit.attached, self.noise
         )
         return box_half_axes_m(
             completed(

@@ -8,15 +8,24 @@ from numpy.typing import NDArray
 from rockshape.ellipsoid.half_axes import Ellipsoid
 from rockshape.numerics.robust_scale import MEDIAN_TO_SIGMA
 from rockshape.surface.basis import Knots
-from rockshape.surface.height_map import Cells, HeightMap, average_in_cells
+from rockshape.surface.height_map import (
+    CELL,
+    Cells,
+    HeightMap,
+    average_in_cells,
+    covered_places,
+)
 from rockshape.surface.normal_equations import Net
 
 NET = Net(u=Knots(32), w=Knots(32))
 EDGE_SMOOTHING = 0.03  # radii: sharper edges look alike
+EDGE_SPACING = 0.45  # of the points' distance: least smoothing, so that no single point is an edge
 RELIEF_SMOOTHING = 0.08  # radii: the relief is what this smoothing takes away
 MIN_POINTS = 144
 EDGE = 0.2  # cosine from the view beyond which points are left out
 FACING = 0.35  # cosine within which the relief is judged: nearer the limb range is thin
+FADE = 0.12  # of cosine, over which bends come to count in full
+STRONGEST = 3.0  # standard deviations from the mean bend that a bend may count
 OUTLIER = 6.0  # robust standard deviations from the smooth surface
 MAX_POINTS = 16_000  # in a fixed shuffle: some for each cell
 MIN_OUTLIER = 0.05  # radii: an edge stands less than this from the smoothed surface
@@ -26,7 +35,7 @@ MIN_OUTLIER = 0.05  # radii: an edge stands less than this from the smoothed sur
 class Relief:
     """Edges and relief over the ellipsoid, free of scale and unit."""
 
-    edge_bend_cubed: float  # third central moment of -(r_xx + r_yy)/2 over the facing cells
+    edge_bend_cubed: float  # third central moment of -(r_xx + r_yy)/2 over the facing side
     noise_bend_cubed: float  # standard deviation of that by range noise
     rough: float  # robust standard deviation of the relief's height, over (abc)^(1/3)
     noise_rough: float  # the same of the draws of range noise
@@ -46,10 +55,13 @@ def measure_relief(
     point becomes a direction and a height r = |y| - 1. The directions are laid out flat about the
     view by Lambert's equal-area projection, x and y in radii, and averaged in cells of 0.05, so
     that a rock is sampled alike from near and far. Cubic B-spline surfaces r(x, y) of the smoothing
-    lengths 0.03 and 0.08 are fitted. An ellipsoid bends by 0 everywhere. Edges bend outwards
-    alone, relief as far in as out, and range noise as well: of the third central moment, which
-    adds up over what is independent, edges have all. The relief is what the longer smoothing takes
-    away; the share of the cells that edges cross hardly moves the median of its absolute height.
+    lengths 0.03, or 0.45 of the points' distance where that is more, and 0.08 are fitted. An
+    ellipsoid bends by 0 everywhere. Edges bend outwards alone, relief as far in as out, and range
+    noise as well: of the third central moment, which adds up over what is independent, edges have
+    all. It is taken over the `covered_places`, with weights that rise from 0 to 1 at cosines from
+    0.35 to 0.47 of the angle to the view, bends held to three standard deviations from their mean.
+    The relief is what the longer smoothing takes away; the share of the cells that edges cross
+    hardly moves the median of its absolute height.
 
     draws_m (n, k) are errors of z-depth like those of the points, from which the same surfaces
     tell what noise does. Of more than 16,000 points those of the lowest rank (n,) are taken. Points
@@ -89,17 +101,23 @@ def _relief(place: NDArray[np.float64], heights: NDArray[np.float64]) -> Relief 
         return None
     misfit = np.abs(heights[:, 0] - smooth.heights[cells.cell, 0])
     sound = misfit <= max(OUTLIER * MEDIAN_TO_SIGMA * float(np.median(misfit)), MIN_OUTLIER)
-    if not sound.all():
-        cells, surface = _surface(place[sound], heights[sound])
-        smooth = None if surface is None else surface.fit(RELIEF_SMOOTHING)
-    fine = None if surface is None else surface.fit(EDGE_SMOOTHING)
+    spots = covered_places(place[sound, :2])
+    cosine = 1 - (spots**2).sum(axis=1) / 2  # of the equal-area projection
+    spots, cosine = spots[cosine > FACING], cosine[cosine > FACING]
+    cells, surface = _surface(place[sound], heights[sound], bends_at=spots)
     facing = cells.place[:, 2] > FACING
-    if smooth is None or fine is None or not facing.any():
+    count = int(cells.count[facing].sum())
+    if surface is None or count == 0 or len(spots) == 0:
         return None
-    bends = fine.bends[facing]
-    seen, draws = bends[:, :1], bends[:, 1:]
-    cubed = float(_cubed(seen)[0])
-    moved = np.concatenate([_cubed(seen + draws), _cubed(seen - draws)]) - cubed
+    spacing = CELL * float(np.sqrt(len(spots) / count))
+    smooth = surface.fit(RELIEF_SMOOTHING)
+    fine = surface.fit(max(EDGE_SMOOTHING, EDGE_SPACING * spacing))
+    if smooth is None or fine is None:
+        return None
+    weight = np.minimum((cosine - FACING) / FADE, 1.0)
+    seen, draws = fine.bends[:, :1], fine.bends[:, 1:]
+    cubed = float(_cubed(seen, weight)[0])
+    moved = np.concatenate([_cubed(seen + sign * draws, weight) for sign in (1, -1)]) - cubed
     relief = ((cells.heights - smooth.heights) * cells.place[:, 3:])[facing]
     variance = (MEDIAN_TO_SIGMA * np.median(np.abs(relief), axis=0)) ** 2
     return Relief(
@@ -107,21 +125,30 @@ def _relief(place: NDArray[np.float64], heights: NDArray[np.float64]) -> Relief 
         noise_bend_cubed=float(np.sqrt(np.mean(moved**2))) if len(moved) else 0.0,
         rough=float(np.sqrt(variance[0])),
         noise_rough=float(np.sqrt(variance[1:].mean())) if len(moved) else 0.0,
-        facing=int(cells.count[facing].sum()),
+        facing=count,
     )
 
 
 def _surface(
-    place: NDArray[np.float64], heights: NDArray[np.float64]
+    place: NDArray[np.float64],
+    heights: NDArray[np.float64],
+    *,
+    bends_at: NDArray[np.float64] | None = None,
 ) -> tuple[Cells, HeightMap | None]:
     cells = average_in_cells(place, heights)
-    return cells, HeightMap.of(NET, cells.place[:, :2], cells.heights)
+    return cells, HeightMap.of(NET, cells.place[:, :2], cells.heights, bends_at=bends_at)
 
 
-def _cubed(bends: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Third central moments (k,) of columns of bends (n, k), those outwards positive."""
-    outwards = bends.mean(axis=0) - bends
-    return np.asarray((outwards**3).mean(axis=0))
+def _cubed(bends: NDArray[np.float64], weight: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Third central moments (k,) of columns of bends (n, k), those outwards positive.
+
+    Weighted by (n,); bends count up to three standard deviations from their mean.
+    """
+    share = weight / weight.sum()
+    outwards = share @ bends - bends
+    most = STRONGEST * np.sqrt(share @ outwards**2)
+    held = np.clip(outwards, -most, most)
+    return np.asarray(share @ (held - share @ held) ** 3)
 
 
 def _flat(

@@ -116,31 +116,13 @@ def moves(
             yield f"{place}: {name}", whole, values(spoiled_m), values(lost_m) if lines else whole
 
 
-EDGES_MOVE = pytest.mark.xfail(
-    reason="angularity_3d, a third moment, moves by up to 30 % where 3 % of the points share a "
-    "wrong value, and by 0.2 where it is near 0; two axes of one rock by 10 %"
-)
-AXES_MOVE = pytest.mark.xfail(
-    reason="whole rows and columns that are off stay in the box round the body: axes move by up to "
-    "47 %; of another rock angularity_3d by 7 %"
-)
-
-
-def marked(mark: pytest.MarkDecorator, *numbers: int) -> list:
-    """Scenes, of which some are marked."""
-    return [
-        pytest.param(scene, marks=mark) if number in numbers else scene
-        for number, scene in enumerate(SCENES)
-    ]
-
-
-@pytest.mark.parametrize("scene", marked(EDGES_MOVE, 0, 1))
+@pytest.mark.parametrize("scene", SCENES)
 def test_no_value_moves_by_more_than_a_twentieth(scene: tuple[str, int, int]) -> None:
     for case, whole, spoiled, _ in moves(scene, lines=False):
         assert (np.abs(spoiled - whole) <= MOST * np.abs(whole)).all(), case
 
 
-@pytest.mark.parametrize("scene", marked(AXES_MOVE, 1, 2))
+@pytest.mark.parametrize("scene", SCENES)
 def test_lines_move_no_value_further_than_their_loss(scene: tuple[str, int, int]) -> None:
     """A value stays within 5 % of the clean one, of that without these points, or between them.
 

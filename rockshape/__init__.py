@@ -7,7 +7,7 @@ The parts, in the order data flows through them: `io` reads files, `observation`
 its range, `inputs` makes it of arrays or files, `ground` and `segmentation` find the rocks,
 `outline`, `ellipse`, `ellipsoid` and `surface` fit each, `measures` turns fits into numbers,
 `method` says which, `pipeline` joins all that, `measurement` is the result with its table, and
-`report` shows it.
+`report` and `export` show it.
 """
 
 import lazy_loader

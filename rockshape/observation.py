@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from rockshape.camera.camera import Camera
 from rockshape.camera.lens import has_square_pixels
+from rockshape.camera.map_frame import MapFrame
 from rockshape.errors import InputError
 from rockshape.rock.instances import Instances
 from rockshape.rock.level_ground import LevelGround
@@ -53,6 +54,7 @@ class Observation:
     ignored: NDArray[np.bool_] | None = None  # (rows, cols), where no rock is to be found
     left_out: Mapping[str, int] = field(default_factory=dict)  # pixels without range, by reason
     pixel_size_m: float | None = None  # side of a pixel on what is seen, where it is known
+    map_frame: MapFrame | None = None  # where on a map the pixels lie, of an orthophoto
     level_ground: LevelGround | None = None  # below the camera, in place of range
     notes: tuple[str, ...] = ()  # what reading has changed or left out, each in a few words
 

@@ -158,7 +158,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--labels-out",
         type=Path,
         metavar="FILE",
-        help="labels of the rocks measured: PNG or TIFF of 16 bits, COCO (.json) or GeoJSON",
+        help="labels of the rocks measured: PNG or TIFF of 16 bits, COCO (.json), GeoJSON or a "
+        "RoiSet of ImageJ (.zip)",
     )
     outputs.add_argument(
         "--overlay",
@@ -169,7 +170,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     outputs.add_argument(
         "--report", type=Path, metavar="FILE", help="HTML page with overlay and table"
     )
-
+    outputs.add_argument(
+        "--map",
+        type=Path,
+        metavar="FILE",
+        help="outlines in map coordinates with the table's values, GeoJSON; of a GeoTIFF",
+    )
+    outputs.add_argument(
+        "--model",
+        type=Path,
+        metavar="FILE",
+        help="points with each rock's ellipsoid and outline, binary glTF (.glb); needs range",
+    )
     outputs.add_argument(
         "--json", action="store_true", help="print the table as JSON where --out names no file"
     )

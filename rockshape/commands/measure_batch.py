@@ -25,7 +25,8 @@ from rockshape.measurement import to_frame
 from rockshape.method import find_method
 
 COMPANIONS = ("labels", "instances", "range", "right", "camera", "ignore")
-PICTURES = ("overlay", "labels_out")
+# suffixes of what is written for each image into a folder
+PICTURES = {"overlay": ".png", "labels_out": ".png", "map": ".geojson", "model": ".glb"}
 SHOWN = 5  # files that are told one by one
 
 
@@ -111,7 +112,8 @@ def _tasks(files: dict[Path, dict[str, Path]], options: MeasureOptions) -> Itera
     written: dict[Path, Path] = {}
     for number, (image, beside) in enumerate(files.items()):
         pictures: dict[str, Any] = {
-            name: _picture(getattr(options, name), image) for name in PICTURES
+            name: _picture(getattr(options, name), image, suffix)
+            for name, suffix in PICTURES.items()
         }
         for path in pictures.values():
             if path is not None and written.setdefault(path, image) != image:
@@ -123,13 +125,13 @@ def _tasks(files: dict[Path, dict[str, Path]], options: MeasureOptions) -> Itera
         yield Task(key_of(number, image, beside, choices), image, partial(measured, own))
 
 
-def _picture(given: Path | None, image: Path) -> Path | None:
+def _picture(given: Path | None, image: Path, suffix: str) -> Path | None:
     """File of an image for an output that was given as a folder or a pattern."""
     if given is None:
         return None
     if "{stem}" in str(given):
         return Path(str(given).replace("{stem}", image.stem))
-    return given / f"{image.stem}.png"
+    return given / f"{image.stem}{suffix}"
 
 
 def measured(options: MeasureOptions) -> ImageResult:

@@ -8,6 +8,10 @@ from typing import TYPE_CHECKING, Any
 from rockshape.commands.measure_options import MeasureOptions
 from rockshape.commands.summary import summarise
 from rockshape.errors import InputError
+from rockshape.export.map_layer import SUFFIXES as MAPS
+from rockshape.export.map_layer import map_frame_of, map_layer
+from rockshape.export.space_model import SUFFIXES as MODELS
+from rockshape.export.space_model import points_of, space_model
 from rockshape.inputs.files import read
 from rockshape.inputs.scale import with_scale
 from rockshape.io import write_image, write_table
@@ -77,6 +81,10 @@ def measure_files(options: MeasureOptions) -> Measurement:
     )
     level_ground = options.level_ground
     observation = with_scale(observation, scale=options.scale, level_ground=level_ground)
+    if options.map is not None:
+        map_frame_of(observation)
+    if options.model is not None:
+        points_of(observation)
     encoded = None
     if options.labels_out is not None and observation.instances is not None:
         encoded = LABELS.encode(options.labels_out, observation.instances)
@@ -108,11 +116,15 @@ def _check_outputs(options: MeasureOptions) -> None:
         _check_overlay(options.overlay)
     if options.report is not None:
         check_writable(options.report, suffixes=PAGES)
+    if options.map is not None:
+        check_writable(options.map, suffixes=MAPS)
+    if options.model is not None:
+        check_writable(options.model, suffixes=MODELS)
 
 
 def _outputs(options: MeasureOptions) -> Iterator[Path]:
-    paths = (options.out, options.labels_out, options.overlay, options.report)
-    return (path for path in paths if path is not None)
+    names = ("out", "labels_out", "overlay", "report", "map", "model")
+    return (path for name in names if (path := getattr(options, name)) is not None)
 
 
 def _write(options: MeasureOptions, measurement: Measurement, encoded: bytes | None) -> None:
@@ -125,6 +137,10 @@ def _write(options: MeasureOptions, measurement: Measurement, encoded: bytes | N
 
         page = render_page(options.image.name, measurement)
         write_bytes(options.report, page.encode())
+    if options.map is not None:
+        write_bytes(options.map, map_layer(measurement, flags=options.flags))
+    if options.model is not None:
+        write_bytes(options.model, space_model(measurement))
 
 
 def _check_overlay(path: Path) -> None:

@@ -39,6 +39,8 @@ class MeasureOptions:
     labels_out: Path | None
     overlay: Path | None
     report: Path | None
+    map: Path | None
+    model: Path | None
     json: bool
     quiet: bool
 

@@ -87,6 +87,7 @@ def read(
     return replace(
         observation,
         pixel_size_m=picture.pixel_size_m if observation.image.shape == shape[:2] else None,
+        map_frame=None if camera is not None else picture.map_frame,
         notes=(
             *_turning(picture),
             *([] if right is None or seen is None else [matching_note(seen)]),

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
     from rockshape.camera.camera import Camera
     from rockshape.camera.lens import Lens
+    from rockshape.camera.map_frame import MapFrame
     from rockshape.io.files import InputFile
     from rockshape.point_grid.range_kinds import RangeKind
     from rockshape.rock.instances import Instances
@@ -53,6 +54,7 @@ class ImageContent:
     pixels: "NDArray[np.generic]"
     pixel_size_m: float | None = None  # side of a pixel on what is seen, where the file tells it
     orientation: int = 1  # EXIF's, by which the pixels have been turned; 1: not at all
+    map_frame: "MapFrame | None" = None  # where on a map the pixels lie, where the file tells it
 
 
 @dataclass(frozen=True)

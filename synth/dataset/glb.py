@@ -31,7 +31,7 @@ def scene_glb(stage: Stage) -> bytes:
     bodies += [(f"ground_{index:06d}", body) for index, body in enumerate(cut) if len(body.faces)]
     for name, body in bodies:
         scene.add_geometry(_geometry(body), node_name=name, geom_name=name, transform=_Y_UP)
-    data: bytes = export_glb(scene, include_normals=True)  # type: ignore[no-untyped-call]
+    data: bytes = export_glb(scene, include_normals=True)
     return data
 
 

@@ -38,9 +38,7 @@ def _rounded_off(mesh: Mesh, *, facets: int) -> Mesh:
     (Loop 1987); at least two, to be rid of the facets.
     """
     times = max(_MIN_LOOPS, round(np.log(facets / len(mesh.faces)) / np.log(4.0)))
-    vertices_m, faces = trimesh.remesh.subdivide_loop(  # type: ignore[no-untyped-call]
-        mesh.vertices_m, mesh.faces, iterations=times
-    )
+    vertices_m, faces = trimesh.remesh.subdivide_loop(mesh.vertices_m, mesh.faces, iterations=times)
     faces = np.asarray(faces, dtype=np.int64)
     return Mesh(vertices_m=vertices_m, faces=faces, normals=vertex_normals(vertices_m, faces))
 

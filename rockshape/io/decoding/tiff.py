@@ -18,11 +18,13 @@ from rockshape.errors import InputError
 from rockshape.io.decoding.libtiff import by_libtiff, orientation_of
 from rockshape.io.decoding.orientation import UPRIGHT, turn
 from rockshape.io.decoding.tiff_directories import check_directories
+from rockshape.io.decoding.tiff_map import map_frame
 from rockshape.io.decoding.tiff_pixel_size import pixel_size_m
 
 if TYPE_CHECKING:
     from tifffile import TiffFile, TiffPage
 
+    from rockshape.camera.map_frame import MapFrame
     from rockshape.io.files import InputFile
 
 TIFF_MAGIC = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
@@ -44,6 +46,7 @@ class TiffImage:
     bits: int  # a sample
     orientation: int = UPRIGHT
     pixel_size_m: float | None = None  # on the ground or the object, not in print
+    map_frame: "MapFrame | None" = None  # None for a page that was turned
     colour_map: NDArray[np.uint16] | None = None  # (3, 2**bits)
     no_data: float | None = None  # GDAL's tag: the number that stands for none
 
@@ -65,6 +68,7 @@ def read_tiff(file: "InputFile") -> TiffImage:
             bits=_bits(page),
             orientation=orientation_of(page),
             pixel_size_m=pixel_size_m(page, tiff.imagej_metadata),
+            map_frame=map_frame(page) if orientation_of(page) == UPRIGHT else None,
             colour_map=page.colormap,
             no_data=None if page.tags.valueof(NO_DATA) is None else float(page.nodata),
         )

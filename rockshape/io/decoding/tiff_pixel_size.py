@@ -44,11 +44,9 @@ def pixel_size_m(page: "TiffPage", imagej: dict[str, Any] | None) -> float | Non
 
 
 def _geotiff_sides(page: "TiffPage") -> tuple[float, float] | None:
-    keys = page.tags.valueof(KEYS)
-    if keys is None:
+    if page.tags.valueof(KEYS) is None:
         return None
-    numbers = [int(each) for each in keys]
-    told = {numbers[k]: numbers[k + 3] for k in range(4, len(numbers) - 3, 4) if not numbers[k + 1]}
+    told = geo_keys(page)
     unit_m = METRES.get(told.get(LINEAR_UNIT, 0))
     if any(told.get(PROJECTED_SYSTEM) in zones for zones in UTM):
         unit_m = unit_m or 1.0
@@ -63,6 +61,12 @@ def _geotiff_sides(page: "TiffPage") -> tuple[float, float] | None:
         a, b, _, _, d, e = (float(each) * unit_m for each in transform[:6])
         return hypot(a, d), hypot(b, e)
     return None
+
+
+def geo_keys(page: "TiffPage") -> dict[int, int]:
+    """Short values of a page's GeoTIFF keys."""
+    numbers = [int(each) for each in page.tags.valueof(KEYS)]
+    return {numbers[k]: numbers[k + 3] for k in range(4, len(numbers) - 3, 4) if not numbers[k + 1]}
 
 
 def _imagej_sides(page: "TiffPage", imagej: dict[str, Any]) -> tuple[float, float] | None:

@@ -29,7 +29,7 @@ def decode_tiff_picture(file: "InputFile") -> ImageContent:
             f"{file.path}: expected a TIFF of grey levels, RGB or a palette, "
             f"found photometric interpretation {image.photometric}"
         )
-    return ImageContent(_levels(image), image.pixel_size_m, image.orientation)
+    return ImageContent(_levels(image), image.pixel_size_m, image.orientation, image.map_frame)
 
 
 def _levels(image: TiffImage) -> NDArray[Any]:
@@ -57,7 +57,7 @@ FORMAT = ImageFormat(
     name="TIFF",
     suffixes=(".tif", ".tiff"),
     summary="one page of any whole numbers or floats, grey, colour or palette; BigTIFF; the pixel "
-    "size of GeoTIFF and ImageJ",
+    "size of GeoTIFF and ImageJ, map coordinates of GeoTIFF",
     tested_with="tifffile, Pillow, OpenCV, TIFF 6.0",
     sniff=magic(*TIFF_MAGIC),
     read=decode_tiff_picture,

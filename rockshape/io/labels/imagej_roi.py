@@ -1,9 +1,10 @@
 """ImageJ regions of interest: one, or a set of the ROI Manager.
 
-Source: ij.io.RoiDecoder of ImageJ 1.54, by the package roifile.
+Source: ij.io.RoiDecoder and RoiEncoder of ImageJ 1.54, by the package roifile.
 """
 
 import io
+import re
 import zipfile
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +13,7 @@ from rockshape.io.decoding.ellipses import ellipse_mask
 from rockshape.io.decoding.numpy_files import ZIP_MAGIC
 from rockshape.io.decoding.outlined import Entry, UnreadableError, collect, ring
 from rockshape.io.decoding.polygons import BoxedMask, fill_rings
+from rockshape.io.encoding.roi_set import PREFIX, write_roi_set
 from rockshape.io.format import ImageInfo, LabelFormat, magic
 
 if TYPE_CHECKING:
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
 
 ROI_MAGIC = b"Iout"
 MAX_ROI_BYTES = 2**24
+_NUMBERED = re.compile(rf"{PREFIX}(\d+)\.roi", re.ASCII)
 AREAS = ("POLYGON", "RECT", "OVAL", "FREEHAND", "TRACED")
 
 
@@ -31,28 +34,34 @@ def is_roi_set(head: bytes) -> bool:
 def read_rois(file: "InputFile", info: ImageInfo) -> "Instances":
     """Instances of the regions that have an area, numbered from 1 in the file's order.
 
-    Lines and points are left out, and a note counts them. Coordinates are those of pixel corners.
+    A region `rock-7.roi` of an archive is rock 7. Lines and points are left out, and a note counts
+    them. Coordinates are those of pixel corners.
     Raises: InputError for an archive without regions, or with one that is damaged or too large.
     """
-    return collect(file, info, [_entry(data, info) for data in _regions(file)], noun="region")
+    return collect(
+        file, info, [_entry(name, data, info) for name, data in _regions(file)], noun="region"
+    )
 
 
-def _regions(file: "InputFile") -> list[bytes]:
+def _regions(file: "InputFile") -> list[tuple[str, bytes]]:
+    """Name and content of each region."""
     if file.head.startswith(ROI_MAGIC):
-        return [file.data]
+        return [("", file.data)]
     with zipfile.ZipFile(io.BytesIO(file.data)) as archive:
         members = [each for each in archive.infolist() if each.filename.lower().endswith(".roi")]
         if not members:
             raise InputError(f"{file.path}: expected regions (.roi), found none in the archive")
         if any(each.file_size > MAX_ROI_BYTES for each in members):
             raise InputError(f"{file.path}: expected regions of at most {MAX_ROI_BYTES} bytes")
-        return [archive.read(each) for each in members]
+        return [(each.filename, archive.read(each)) for each in members]
 
 
-def _entry(data: bytes, info: ImageInfo) -> Entry:
+def _entry(name: str, data: bytes, info: ImageInfo) -> Entry:
     from roifile import ImagejRoi  # noqa: PLC0415 - few label files are regions
 
-    return Entry(None, lambda: _mask(ImagejRoi.frombytes(data), info.shape))
+    numbered = _NUMBERED.fullmatch(name)
+    number = int(numbered[1]) if numbered else None
+    return Entry(number, lambda: _mask(ImagejRoi.frombytes(data), info.shape))
 
 
 def _mask(roi: Any, shape: tuple[int, int]) -> BoxedMask | None:
@@ -87,4 +96,5 @@ ROI_SET = LabelFormat(
     tested_with="roifile",
     sniff=is_roi_set,
     read=read_rois,
+    write=write_roi_set,
 )

@@ -1,10 +1,11 @@
-"""COCO and GeoJSON as written: read back they hold the same pixels, holes and pieces too."""
+"""COCO, GeoJSON and RoiSet as written: read back they hold the same pixels, also of holes."""
 
 import json
 from pathlib import Path
 
 import numpy as np
 import pytest
+import roifile
 from scipy import ndimage
 
 from rockshape.io import read_labels, write_labels
@@ -33,7 +34,7 @@ def masks(instances: Instances) -> dict[int, np.ndarray]:
     return whole
 
 
-@pytest.mark.parametrize("suffix", [".json", ".geojson"])
+@pytest.mark.parametrize("suffix", [".json", ".geojson", ".zip"])
 @pytest.mark.parametrize("seed", range(12))
 def test_what_is_written_is_read_back_to_the_pixel(tmp_path: Path, suffix: str, seed: int) -> None:
     written = blobs(seed)
@@ -80,3 +81,19 @@ def test_run_lengths_of_extreme_masks(filled: tuple[slice, slice]) -> None:
     assert sum(counts) == mask.size
     values = np.repeat(np.arange(len(counts)) % 2, counts).astype(bool)
     assert np.array_equal(values.reshape(mask.shape, order="F"), mask)
+
+
+def test_a_set_of_regions_is_read_by_roifile(tmp_path: Path) -> None:
+    disc = np.hypot(*np.mgrid[-9:10, -9:10]) < 9
+    ring = disc & (np.hypot(*np.mgrid[-9:10, -9:10]) > 4)
+    items = (Instance(4, np.s_[2:21, 3:22], disc), Instance(9, np.s_[30:49, 3:22], ring))
+    written = Instances((60, 40), items)
+    for name in ("rocks.zip", "again.zip"):
+        write_labels(tmp_path / name, written)
+    assert (tmp_path / "rocks.zip").read_bytes() == (tmp_path / "again.zip").read_bytes()
+    whole, holed = roifile.roiread(tmp_path / "rocks.zip")
+    assert (whole.name, whole.roitype.name) == ("rock-4", "TRACED")
+    assert (whole.left, whole.top, whole.right, whole.bottom) == (4, 3, 21, 20)
+    assert (holed.name, holed.composite) == ("rock-9", True)
+    assert len(holed.coordinates(multi=True)) == 2
+    assert (holed.left, holed.top, holed.right, holed.bottom) == (4, 31, 21, 48)

@@ -22,12 +22,15 @@ ABOUT = KEY.encode()
 class ResultFolder:
     """Folder of results, each under a key that hashes the image's files and the options."""
 
-    def __init__(self, folder: Path, *, keep: Collection[str]) -> None:
+    def __init__(self, folder: Path, *, keep: Collection[str], sections: bool = False) -> None:
         """Open a folder; of the results that are there those of some keys are kept.
+
+        With sections a result is a table and the section of a page.
 
         Raises: InputError for a folder of other files.
         """
         self.folder = folder
+        self.sections = sections
         if folder.exists():
             mark = folder / _MARK
             if not folder.is_dir() or (any(folder.iterdir()) and not mark.is_file()):
@@ -35,6 +38,7 @@ class ResultFolder:
             for path in self.folder.glob("*.parquet"):
                 if path.stem not in keep:
                     path.unlink()
+                    self._section_path(path.stem).unlink(missing_ok=True)
         folder.mkdir(parents=True, exist_ok=True)
         write_bytes(folder / _MARK, json.dumps({"format": _FORMAT}).encode())
 
@@ -44,11 +48,20 @@ class ResultFolder:
 
     def has(self, key: str) -> bool:
         """Whether a result is there."""
-        return self.path(key).is_file()
+        return self.path(key).is_file() and (not self.sections or self._section_path(key).is_file())
 
-    def put(self, key: str, content: bytes) -> None:
+    def put(self, key: str, content: bytes, section: bytes | None = None) -> None:
         """Write a result whole."""
+        if section is not None:
+            write_bytes(self._section_path(key), section)
         write_bytes(self.path(key), content)
+
+    def section(self, key: str) -> bytes:
+        """Section of a result."""
+        return self._section_path(key).read_bytes()
+
+    def _section_path(self, key: str) -> Path:
+        return self.folder / f"_{key}.json"
 
     def rocks(self, key: str) -> int:
         """Number of rocks of a result."""
@@ -69,6 +82,29 @@ class ResultFolder:
 
         for key in keys:
             yield pd.read_parquet(self.path(key))
+
+    def column_names(self, key: str) -> list[str]:
+        """Columns of a result."""
+        import pyarrow.parquet as pq  # noqa: PLC0415 - likewise
+
+        return list(pq.read_schema(self.path(key)).names)
+
+    def values(self, keys: Sequence[str], names: Sequence[str]) -> "pd.DataFrame":
+        """Some columns of all results as one table."""
+        import pandas as pd  # noqa: PLC0415 - likewise
+
+        tables = [pd.read_parquet(self.path(key), columns=list(names)) for key in keys]
+        return pd.concat([each for each in tables if len(each)] or tables[:1], ignore_index=True)
+
+    def filled(self, keys: Sequence[str]) -> set[str]:
+        """Columns that have a value in any result."""
+        import pyarrow.parquet as pq  # noqa: PLC0415 - likewise
+
+        found: set[str] = set()
+        for key in keys:
+            table = pq.read_table(self.path(key))
+            found |= {name for name in table.column_names if table[name].null_count < len(table)}
+        return found
 
     def remove(self) -> None:
         """Remove the folder with all results."""

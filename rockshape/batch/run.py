@@ -18,6 +18,7 @@ class ImageResult:
     rocks: int
     table: bytes | None
     failure: str = ""
+    section: bytes | None = None  # of a page, where one was asked for
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,7 @@ def run_batch(
         if outcome.table is None:
             failures[task.image] = outcome.failure
         else:
-            parts.put(task.key, outcome.table)
+            parts.put(task.key, outcome.table, outcome.section)
         on_done(task, outcome)
     return failures
 

@@ -168,7 +168,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="image with outlines, ellipses and numbers: PNG, JPEG, TIFF or SVG",
     )
     outputs.add_argument(
-        "--report", type=Path, metavar="FILE", help="HTML page with overlay and table"
+        "--report",
+        type=Path,
+        metavar="FILE",
+        help="HTML page with pictures, charts and table, of one image or all",
     )
     outputs.add_argument(
         "--map",

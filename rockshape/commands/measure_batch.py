@@ -15,14 +15,17 @@ from rockshape.batch.joining import check_joinable, write_joined
 from rockshape.batch.pairing import Companion, paired
 from rockshape.batch.parts import ResultFolder, key_of
 from rockshape.batch.run import ImageResult, Task, run_batch
-from rockshape.commands.measure_image import about_table, measure_files
+from rockshape.commands.measure_batch_report import section_order, write_batch_report
+from rockshape.commands.measure_image import PAGES, about_table, measure_files
 from rockshape.commands.measure_options import MeasureOptions
 from rockshape.errors import InputError
 from rockshape.execution.executors import cluster, default_jobs, local
 from rockshape.execution.progress import Progress
+from rockshape.io.files import check_writable
 from rockshape.io.tables.parquet import encode_parquet
 from rockshape.measurement import to_frame
 from rockshape.method import find_method
+from rockshape.report.section import SectionOrder, section_of
 
 COMPANIONS = ("labels", "instances", "range", "right", "camera", "ignore")
 # suffixes of what is written for each image into a folder
@@ -62,6 +65,7 @@ def measure_batch(given: Sequence[str], options: MeasureOptions, batch: BatchOpt
     parts = ResultFolder(
         out.with_name(f"{out.name}.parts") if joined else out,
         keep={task.key for task in tasks} if batch.resume else (),
+        sections=options.report is not None,
     )
     with ExitStack() as stack:
         executor = stack.enter_context(place)
@@ -79,6 +83,8 @@ def measure_batch(given: Sequence[str], options: MeasureOptions, batch: BatchOpt
     if not options.quiet:
         _tell_end(len(keys), there, sum(parts.rocks(key) for key in keys))
     _tell_failures(failures)
+    if options.report is not None and keys:
+        write_batch_report(options.report, parts, keys, find_method(options.method))
     if joined:
         if keys:
             write_joined(out, parts.tables(keys), about=parts.about(keys))
@@ -90,7 +96,7 @@ def _checked(options: MeasureOptions) -> Path:
     """Where the table goes. Raises: InputError for what a batch cannot do."""
     find_method(options.method)
     if options.report is not None:
-        raise InputError("--report: expected one image, found a batch")
+        check_writable(options.report, suffixes=PAGES)
     if options.out is None:
         raise InputError("--out: expected a file or folder for the table of a batch, found none")
     if options.out.suffix:
@@ -109,6 +115,7 @@ def _checked(options: MeasureOptions) -> Path:
 
 def _tasks(files: dict[Path, dict[str, Path]], options: MeasureOptions) -> Iterator[Task]:
     choices = {**options.choices(), **{name: str(getattr(options, name)) for name in PICTURES}}
+    choices["sections"] = None if options.report is None else len(files)
     written: dict[Path, Path] = {}
     for number, (image, beside) in enumerate(files.items()):
         pictures: dict[str, Any] = {
@@ -121,8 +128,9 @@ def _tasks(files: dict[Path, dict[str, Path]], options: MeasureOptions) -> Itera
                     f"{image}: expected a name of its own for {path}, found {written[path]}"
                 )
         given: dict[str, Any] = {**beside, **pictures}
-        own = replace(options, image=image, out=None, **given)
-        yield Task(key_of(number, image, beside, choices), image, partial(measured, own))
+        own = replace(options, image=image, out=None, report=None, **given)
+        order = None if options.report is None else section_order(number, len(files))
+        yield Task(key_of(number, image, beside, choices), image, partial(measured, own, order))
 
 
 def _picture(given: Path | None, image: Path, suffix: str) -> Path | None:
@@ -134,8 +142,11 @@ def _picture(given: Path | None, image: Path, suffix: str) -> Path | None:
     return given / f"{image.stem}{suffix}"
 
 
-def measured(options: MeasureOptions) -> ImageResult:
-    """ImageResult of one image, in a worker with one thread."""
+def measured(options: MeasureOptions, order: SectionOrder | None = None) -> ImageResult:
+    """ImageResult of one image, in a worker with one thread; with the section of a page if asked.
+
+    Nothing that an image does stops the others.
+    """
     cv2.setNumThreads(1)
     try:
         measurement = measure_files(options)
@@ -147,7 +158,11 @@ def measured(options: MeasureOptions) -> ImageResult:
         return ImageResult(0, None, f"{options.image}: {type(error).__name__}: {error}")
     frame = to_frame(measurement, flags=options.flags)
     frame.insert(0, "image", str(options.image))
-    return ImageResult(len(frame), encode_parquet(frame, about_table(options, frame)))
+    section = None
+    if order is not None:
+        section = section_of(options.image.name, measurement, order).to_json()
+    table = encode_parquet(frame, about_table(options, frame))
+    return ImageResult(len(frame), table, section=section)
 
 
 def _tell_pairs(images: int, companions: dict[str, Companion], failures: dict[Path, str]) -> None:

@@ -1,26 +1,28 @@
 """Charts of a page: distributions of sizes and measures, and Zingg's diagram, as SVG."""
 
 import io
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from rockshape.errors import InputError
-from rockshape.measurement import AXES, Measurement
+from rockshape.measurement import AXES
+from rockshape.measures import Measure
 from rockshape.samples.axis_ticks import log_ticks
 from rockshape.samples.form_classes import ZINGG_BOUND
 from rockshape.samples.size_column import size_column
 
 if TYPE_CHECKING:
+    import pandas as pd
     from matplotlib.axes import Axes
 
 _INK, _FILL = "#7a7a7a", "#3b82c4"  # to be seen on white and on black
 _MIN_ROCKS = 5
 
 
-def charts(measurement: Measurement) -> str:
+def charts(frame: "pd.DataFrame", measures: Sequence[Measure]) -> str:
     """One SVG with a panel for each quantity of five rocks and more; empty without any."""
-    frame = measurement.to_frame()
     panels = []
     try:
         size = size_column(frame, None)
@@ -30,7 +32,7 @@ def charts(measurement: Measurement) -> str:
         pass
     panels += [
         (each.title, frame[each.column].to_numpy(np.float64), False)
-        for each in measurement.measures
+        for each in measures
         if not each.unit
     ]
     shown = [(title, values[np.isfinite(values)], log) for title, values, log in panels]

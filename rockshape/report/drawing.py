@@ -4,6 +4,7 @@ import base64
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from importlib.resources import files
 
 import cv2
 import numpy as np
@@ -13,8 +14,8 @@ from rockshape.ellipse.direct import Ellipse
 from rockshape.measurement import Measurement, Rock
 from rockshape.observation import Observation
 
-_MOST_PX = 1600  # longer side of the picture that is embedded
-_STRAY_PX = 0.25  # by which a drawn outline may leave the measured one
+MOST_PX = 1600  # longer side of the picture that is embedded
+_STRAY_PX = 0.25  # of the picture, by which a drawn outline may leave the measured one
 _NICE = (1, 2, 5)
 _NUMBER_SHARE = 0.03  # of the picture's longer side, at most
 _BAR_SHARE = 0.3  # of the picture's width, at most
@@ -40,27 +41,45 @@ class ScaleBar:
     words: str
 
 
-def picture_uri(observation: Observation) -> str:
+def drawing(measurement: Measurement, *, prefix: str = "", most_px: int = MOST_PX) -> str:
+    """Content of an SVG in pixels of the image: picture, groups `rock-PREFIXNUMBER`, scale bar."""
+    import jinja2  # noqa: PLC0415 - for pages and SVG alone
+
+    rows, cols = measurement.instances.shape
+    environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
+    environment.filters["short"] = lambda value: f"{value:.1f}"
+    template = (files("rockshape.report") / "drawing.svg").read_text(encoding="utf-8")
+    return environment.from_string(template).render(
+        rows=rows,
+        cols=cols,
+        prefix=prefix,
+        picture=picture_uri(measurement.observation, most_px=most_px),
+        drawn=drawn_rocks(measurement, stray_px=_STRAY_PX * max(1.0, max(rows, cols) / most_px)),
+        bar=scale_bar(measurement),
+    )
+
+
+def picture_uri(observation: Observation, *, most_px: int = MOST_PX) -> str:
     """Image, in colour where it has 8 bits of it, as a data URI of a JPEG, reduced if large."""
     colour = observation.colour
     if colour is not None and colour.dtype == np.uint8 and colour.shape[2] == 3:
         pixels = np.ascontiguousarray(colour[..., ::-1])
     else:
         pixels = np.clip(np.rint(observation.image * 255), 0, 255).astype(np.uint8)
-    scale = min(1.0, _MOST_PX / max(pixels.shape))
+    scale = min(1.0, most_px / max(pixels.shape))
     if scale < 1:
         pixels = cv2.resize(pixels, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
     jpeg = cv2.imencode(".jpg", pixels, [cv2.IMWRITE_JPEG_QUALITY, 85])[1]
     return f"data:image/jpeg;base64,{base64.b64encode(jpeg.tobytes()).decode()}"
 
 
-def drawn_rocks(measurement: Measurement) -> Iterator[DrawnRock]:
+def drawn_rocks(measurement: Measurement, *, stray_px: float = _STRAY_PX) -> Iterator[DrawnRock]:
     """Yield the lines of each rock, small ones last, so that they lie above."""
     most = _NUMBER_SHARE * max(measurement.instances.shape)
     for rock in sorted(measurement, key=lambda each: -each.area_px):
         yield DrawnRock(
             number=rock.number,
-            outline=_path(_simplified(rock.outline_px)),
+            outline=_path(_simplified(rock.outline_px, stray_px)),
             ellipse=rock.ellipse,
             x=round(rock.col, 1),
             y=round(rock.row, 1),
@@ -80,9 +99,9 @@ def scale_bar(measurement: Measurement) -> ScaleBar | None:
     return ScaleBar(length_mm / (1e3 * pixel_m), words)
 
 
-def _simplified(outline_px: NDArray[np.float64]) -> NDArray[np.float64]:
+def _simplified(outline_px: NDArray[np.float64], stray_px: float) -> NDArray[np.float64]:
     curve = outline_px.astype(np.float32)[:, None]
-    return np.asarray(cv2.approxPolyDP(curve, _STRAY_PX, closed=True)[:, 0], dtype=np.float64)
+    return np.asarray(cv2.approxPolyDP(curve, stray_px, closed=True)[:, 0], dtype=np.float64)
 
 
 def _path(points: NDArray[np.float64]) -> str:

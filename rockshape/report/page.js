@@ -1,6 +1,6 @@
 "use strict";
 (() => {
-  const picture = document.getElementById("picture");
+  const picture = document.getElementById("pictures");
   const body = document.querySelector("#rocks tbody");
   const heads = [...document.querySelectorAll("#rocks thead th")];
   const told = document.getElementById("told");
@@ -26,10 +26,19 @@
     const drawn = drawnOf(number);
     if (drawn) drawn.classList.add("chosen");
     told.textContent = words(row);
+    if (!scroll && drawn && picture.classList.contains("many")) enlarge(drawn.closest("figure"), true);
     if (scroll) row.scrollIntoView({ block: "nearest" });
   }
 
+  function enlarge(figure, large) {
+    figure.classList.toggle("open", large);
+    figure.querySelector("figcaption button").setAttribute("aria-expanded", String(large));
+    if (large) figure.scrollIntoView({ block: "nearest" });
+  }
+
   picture.addEventListener("click", (event) => {
+    const caption = event.target.closest("figcaption button");
+    if (caption) enlarge(caption.closest("figure"), caption.getAttribute("aria-expanded") === "false");
     const rock = event.target.closest(".rock");
     if (rock) choose(numberOf(rock), true);
   });

@@ -1,5 +1,10 @@
 """Verdict of a measurement in sentences that need no key."""
 
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from rockshape.errors import InputError
@@ -9,7 +14,11 @@ from rockshape.samples.percentiles import percentiles
 from rockshape.samples.sample import sample_of
 from rockshape.samples.size_column import size_column
 
+if TYPE_CHECKING:
+    import pandas as pd
+
 MANY = 20  # rocks from which percentiles are told
+OUTLINE, SOLID = "Outline", "3-D"
 _WHY = {
     Reason.TOO_SMALL: "too small in pixels",
     Reason.TRUNCATED: "cut by the frame",
@@ -18,21 +27,57 @@ _WHY = {
 }
 
 
-def verdict(measurement: Measurement) -> list[str]:
-    """Sentences: how many rocks, how large, what could be measured, and what could not and why."""
-    count = len(measurement)
-    if not count:
-        return ["No rock was measured."]
-    told = [f"{count} rock{'s' if count > 1 else ''} measured.", *_sizes(measurement)]
-    for name, needs_range in (("Outline", False), ("3-D", True)):
+@dataclass(frozen=True)
+class Tally:
+    """Counts of what was measured in one image or several, by kinds of measures."""
+
+    images: int
+    ranged: int  # images with range
+    rocks: int
+    whole: dict[str, int]  # rocks that have all measures of a kind
+    lacking: dict[str, dict[str, int]]  # rocks that lack some, by the reason in words
+
+
+def tally_of(measurement: Measurement) -> Tally:
+    """Tally of one image."""
+    whole, lacking = {}, {}
+    for kind, needs_range in ((OUTLINE, False), (SOLID, True)):
         measures = [each for each in measurement.measures if each.needs_range is needs_range]
         if measures:
-            told.append(_measured(name, measures, measurement))
-    return told
+            whole[kind], lacking[kind] = _completeness(measures, measurement)
+    ranged = int(measurement.observation.points_m is not None)
+    return Tally(1, ranged, len(measurement), whole, lacking)
 
 
-def _sizes(measurement: Measurement) -> list[str]:
-    frame = measurement.to_frame()
+def joined(tallies: Iterable[Tally]) -> Tally:
+    """Tally of all images of several."""
+    images = ranged = rocks = 0
+    whole: Counter[str] = Counter()
+    lacking: dict[str, Counter[str]] = {}
+    for each in tallies:
+        images, ranged, rocks = images + each.images, ranged + each.ranged, rocks + each.rocks
+        for kind, count in each.whole.items():
+            whole[kind] += count
+            lacking.setdefault(kind, Counter()).update(each.lacking[kind])
+    return Tally(
+        images, ranged, rocks, dict(whole), {kind: dict(why) for kind, why in lacking.items()}
+    )
+
+
+def verdict(tally: Tally, frame: "pd.DataFrame") -> list[str]:
+    """Sentences: how many rocks, how large, what could be measured, and what could not and why.
+
+    frame is the table, or its columns of sizes and `truncated`.
+    """
+    count = tally.rocks
+    where = "" if tally.images == 1 else f" in {tally.images} images"
+    if not count:
+        return [f"No rock was measured{where}."]
+    told = [f"{count} rock{'s' if count > 1 else ''} measured{where}.", *_sizes(frame)]
+    return [*told, *(_measured(kind, tally) for kind in tally.whole)]
+
+
+def _sizes(frame: "pd.DataFrame") -> list[str]:
     try:
         column = size_column(frame, None)
     except InputError:
@@ -53,19 +98,25 @@ def _sizes(measurement: Measurement) -> list[str]:
     ]
 
 
-def _measured(name: str, measures: list[Measure], measurement: Measurement) -> str:
-    if name == "3-D" and measurement.observation.points_m is None:
-        return "3-D measures need range, and none was given."
-    columns = [measure.column for measure in measures]
-    lacking: dict[str, int] = {}
+def _completeness(
+    measures: Sequence[Measure], measurement: Measurement
+) -> tuple[int, dict[str, int]]:
+    """Number of rocks that have all measures, and why others lack some."""
+    lacking: Counter[str] = Counter()
     whole = 0
     for rock in measurement:
-        reasons = {rock.readings[column].reason for column in columns} - {None}
+        reasons = {rock.readings[measure.column].reason for measure in measures} - {None}
         whole += not reasons
         for reason in reasons:
-            words = _WHY.get(reason, str(reason)) if reason is not None else ""
-            lacking[words] = lacking.get(words, 0) + 1
-    if whole == len(measurement):
-        return f"{name} measures of each."
-    why = ", ".join(f"{count} {words}" for words, count in sorted(lacking.items()))
-    return f"All {name[0].lower() + name[1:]} measures of {whole}; others lack some ({why})."
+            lacking[_WHY.get(reason, str(reason)) if reason is not None else ""] += 1
+    return whole, dict(lacking)
+
+
+def _measured(kind: str, tally: Tally) -> str:
+    if kind == SOLID and not tally.ranged:
+        return "3-D measures need range, and none was given."
+    if tally.whole[kind] == tally.rocks:
+        return f"{kind} measures of each."
+    why = ", ".join(f"{count} {words}" for words, count in sorted(tally.lacking[kind].items()))
+    named, whole = kind[0].lower() + kind[1:], tally.whole[kind]
+    return f"All {named} measures of {whole}; others lack some ({why})."

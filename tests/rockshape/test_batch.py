@@ -153,7 +153,7 @@ def test_a_killed_run_leaves_whole_parts_and_is_resumed_to_the_same_table() -> N
         (["photos", "--labels", "masks"], "--out: expected a file or folder"),
         (["photos", "--out", "t.xlsx"], "t.xlsx: expected a table"),
         (["photos", "--out", "no/t.csv"], "expected an existing folder"),
-        (["photos", "--out", "t.csv", "--report", "p.html"], "--report: expected one image"),
+        (["photos", "--out", "t.csv", "--report", "p.pdf"], "p.pdf: expected"),
         (["photos", "--out", "t.csv", "--overlay", "o.png"], "--overlay: expected a folder"),
         (["masks/*.jpg", "--out", "t.csv"], "expected a pattern of images, found no such file"),
         (["photos", "--out", "photos"], "expected a new folder or a batch's"),

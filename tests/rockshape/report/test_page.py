@@ -9,7 +9,7 @@ import pytest
 import rockshape
 from rockshape.report.drawing import scale_bar
 from rockshape.report.page import render_page
-from rockshape.report.verdict import verdict
+from rockshape.report.verdict import tally_of, verdict
 from tests.browser import Browser, chromium
 
 
@@ -24,16 +24,20 @@ def discs(across: int, down: int, *, step: int = 20, **options: object) -> rocks
     return rockshape.measure(labels=labels, **options)
 
 
+def told_of(found: rockshape.Measurement) -> list[str]:
+    return verdict(tally_of(found), found.to_frame())
+
+
 def test_the_verdict_says_what_there_is_and_what_is_missing() -> None:
-    told = " ".join(verdict(discs(6, 5, sizes=True, scale="0.5mm")))
+    told = " ".join(told_of(discs(6, 5, sizes=True, scale="0.5mm")))
     assert told.startswith("30 rocks measured. Nine in ten of the 30 that are whole")
     assert " mm; half are below" in told
     assert "3-D measures need range, and none was given." in told
-    few = " ".join(verdict(discs(2, 1, sizes=True)))
+    few = " ".join(told_of(discs(2, 1, sizes=True)))
     assert "minor axes of the 2 that are whole in the frame are" in few
     assert "px long" in few
     nothing = rockshape.measure(labels=np.zeros((9, 9), np.int32))
-    assert verdict(nothing) == ["No rock was measured."]
+    assert told_of(nothing) == ["No rock was measured."]
 
 
 @pytest.mark.parametrize(

@@ -12,33 +12,14 @@ or a lack of the machine and is printed as one line; so is a file that the syste
 exception is a defect and keeps its traceback.
 """
 
-import argparse
 import sys
 from collections.abc import Sequence
-from importlib.metadata import EntryPoint, entry_points, version
+from importlib.metadata import version
 from io import TextIOWrapper
-from typing import Protocol, cast
 
+from rockshape.commands.known import command_names, load_command
 from rockshape.commands.parser import CommandParser, examples
 from rockshape.errors import one_line
-
-GROUP = "rockshape.commands"
-
-
-class Command(Protocol):
-    """Sub-command's module."""
-
-    HELP: str
-
-    def add_arguments(self, parser: argparse.ArgumentParser) -> None:
-        """Declare the command's arguments."""
-
-    def run(self, args: argparse.Namespace) -> int:
-        """Do the work and return the exit status."""
-
-
-def _load(entry: EntryPoint) -> Command:
-    return cast(Command, entry.load())
 
 
 def build_parser(asked: str | None = None) -> CommandParser:
@@ -54,10 +35,10 @@ def build_parser(asked: str | None = None) -> CommandParser:
     parser.add_argument("--version", action="version", version=f"rockshape {version('rockshape')}")
     if asked == "--version":
         return parser
-    entries = {entry.name: entry for entry in entry_points(group=GROUP)}
+    names = command_names()
     commands = parser.add_subparsers(title="commands", metavar="COMMAND")
-    for name in [asked] if asked in entries else sorted(entries):
-        command = _load(entries[name])
+    for name in [asked] if asked in names else names:
+        command = load_command(name)
         subparser = commands.add_parser(name, help=command.HELP, description=command.HELP)
         command.add_arguments(subparser)
         subparser.set_defaults(run=command.run)

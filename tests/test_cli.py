@@ -81,8 +81,8 @@ def test_the_version_is_the_distributions_and_imports_nothing_heavy():
         ("mesure", "rockshape: unknown command 'mesure'; did you mean 'measure'?"),
         (
             "zzz",
-            "rockshape: unknown command 'zzz'; expected columns, formats, fuse, measure, "
-            "plot, summarise, synth or validate",
+            "rockshape: unknown command 'zzz'; expected columns, completion, formats, fuse, "
+            "measure, plot, summarise, synth or validate",
         ),
         ("--vresion", "rockshape: unknown option '--vresion'; did you mean '--version'?"),
         (

@@ -33,10 +33,23 @@ def main() -> None:
     parser.add_argument("--parts", nargs="+", choices=NAMES, default=NAMES, help="of the mixture")
     parser.add_argument("--smooth", action="store_true", help="lay the rocks on smooth ground")
     parser.add_argument("--grey", action="store_true", help="show no colour")
+    parser.add_argument(
+        "--rate", type=float, default=2e-3, help="of learning, at its greatest (%(default)s)"
+    )
+    parser.add_argument(
+        "--start", type=Path, metavar="FOLDER", help="with a network.onnx to begin with"
+    )
     said = parser.parse_args()
     wanted = shards(said.tiles, only=said.parts, smooth=said.smooth)
     paths = make_shards(said.folder / "tiles", wanted, jobs=said.jobs)
-    course = Course(steps=said.steps, crops=said.crops, seed=said.seed, grey=said.grey)
+    course = Course(
+        steps=said.steps,
+        crops=said.crops,
+        seed=said.seed,
+        grey=said.grey,
+        rate=said.rate,
+        start=None if said.start is None else said.start / NETWORK,
+    )
     network = train(list(read_tiles(paths)), course, said.folder)
     export(network, said.folder / NETWORK)
     fit_likelihood(said.folder, tiles=said.fitted, jobs=said.jobs)

@@ -4,6 +4,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from training.repaint import repainted
+from training.things import with_things
 from training.tile import Tile
 
 Bytes = NDArray[np.uint8]
@@ -18,7 +20,9 @@ def draw_crop(
     """Picture (side, side, 3), 1 for white, and labels, of a part of a tile."""
     image, labels = _turned(tile.image, tile.labels, rng)
     image, labels = _zoomed(image, labels, side, rng)
-    return _developed(image, rng), labels
+    picture = repainted(image.astype(np.float32) / np.float32(255.0), labels, rng)
+    picture, labels = with_things(picture, labels, rng)
+    return _developed(picture, rng), labels
 
 
 def _turned(
@@ -65,9 +69,9 @@ def _place(
     return min(max(low[0], 0), last[0]), min(max(low[1], 0), last[1])
 
 
-def _developed(image: Bytes, rng: np.random.Generator) -> Singles:
+def _developed(picture: Singles, rng: np.random.Generator) -> Singles:
     """Other light, colours, lens, sensor and file."""
-    picture = _lit(image.astype(np.float32) / np.float32(255.0), rng)
+    picture = _lit(picture, rng)
     picture = _sharpened(picture, rng)
     if rng.uniform() < 0.5:
         noise = rng.standard_normal(picture.shape, dtype=np.float32)

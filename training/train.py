@@ -18,8 +18,8 @@ from training.augment import draw_crop
 from training.network import Network
 from training.targets import targets_of
 from training.tile import Tile
+from training.warm_start import start_from
 
-_RATE = 2e-3
 _WARM_STEPS = 100
 _AVERAGED_SHARE = 0.002  # of the last step in the mean of weights
 _AHEAD = 6  # batches that are made while others are learnt
@@ -38,6 +38,8 @@ class Course:
     side_px: int = 192  # of a crop
     checkpoint_steps: int = 200
     grey: bool = False  # without colour
+    rate: float = 2e-3  # of learning, at its greatest
+    start: Path | None = None  # exported network to begin with
 
 
 def train(tiles: Sequence[Tile], course: Course, folder: Path) -> Network:
@@ -48,11 +50,13 @@ def train(tiles: Sequence[Tile], course: Course, folder: Path) -> Network:
     """
     torch.manual_seed(course.seed)
     network = Network().to(memory_format=torch.channels_last)
+    if course.start is not None:
+        start_from(network, course.start, _batch(tiles, course, 0)[0])
     average = copy.deepcopy(network)
-    optimizer = torch.optim.AdamW(network.parameters(), lr=_RATE, weight_decay=1e-3)
+    optimizer = torch.optim.AdamW(network.parameters(), lr=course.rate, weight_decay=1e-3)
     schedule = torch.optim.lr_scheduler.OneCycleLR(
         optimizer,
-        _RATE,
+        course.rate,
         total_steps=course.steps + 1,
         pct_start=min(0.3, _WARM_STEPS / course.steps),
         cycle_momentum=False,

@@ -15,6 +15,7 @@ from training.export import export
 from training.network import Network
 from training.tile import SIDE_PX, Tile
 from training.train import Course, train
+from training.warm_start import start_from
 
 COURSE = Course(steps=4, crops=2, side_px=64, checkpoint_steps=2)
 
@@ -70,3 +71,18 @@ def test_the_file_answers_as_the_network_does(tmp_path):
         with torch.no_grad():
             expected = network(torch.from_numpy(picture)).numpy()
         np.testing.assert_allclose(read.forward(), expected, atol=2e-3)
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning", "ignore::UserWarning")
+def test_a_network_begins_with_the_answers_of_the_one_it_starts_from(tmp_path):
+    torch.manual_seed(2)
+    network = Network()
+    pictures = torch.randn(2, 3, 64, 64)
+    network.train()(pictures)  # normalizations have moments of their own
+    export(network, tmp_path / "network.onnx")
+    begun = Network()
+    start_from(begun, tmp_path / "network.onnx", torch.randn(2, 3, 64, 64))
+    assert begun.training
+    with torch.no_grad():
+        expected, found = network.eval()(pictures), begun.eval()(pictures)
+    torch.testing.assert_close(found, expected, rtol=1e-3, atol=1e-4)

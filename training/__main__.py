@@ -34,6 +34,9 @@ def main() -> None:
     parser.add_argument("--smooth", action="store_true", help="lay the rocks on smooth ground")
     parser.add_argument("--grey", action="store_true", help="show no colour")
     parser.add_argument(
+        "--plain", action="store_true", help="paint no rocks, and draw nothing over them"
+    )
+    parser.add_argument(
         "--rate", type=float, default=2e-3, help="of learning, at its greatest (%(default)s)"
     )
     parser.add_argument(
@@ -47,6 +50,7 @@ def main() -> None:
         crops=said.crops,
         seed=said.seed,
         grey=said.grey,
+        plain=said.plain,
         rate=said.rate,
         start=None if said.start is None else said.start / NETWORK,
     )

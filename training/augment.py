@@ -15,13 +15,17 @@ _GREY = 0.35
 
 
 def draw_crop(
-    tile: Tile, side: int, rng: np.random.Generator
+    tile: Tile, side: int, rng: np.random.Generator, *, plain: bool = False
 ) -> tuple[Singles, NDArray[np.uint16]]:
-    """Picture (side, side, 3), 1 for white, and labels, of a part of a tile."""
+    """Picture (side, side, 3), 1 for white, and labels, of a part of a tile.
+
+    Where plain, rocks keep their colours, and nothing is drawn over them.
+    """
     image, labels = _turned(tile.image, tile.labels, rng)
     image, labels = _zoomed(image, labels, side, rng)
-    picture = repainted(image.astype(np.float32) / np.float32(255.0), labels, rng)
-    picture, labels = with_things(picture, labels, rng)
+    picture = image.astype(np.float32) / np.float32(255.0)
+    if not plain:
+        picture, labels = with_things(repainted(picture, labels, rng), labels, rng)
     return _developed(picture, rng), labels
 
 

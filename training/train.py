@@ -38,6 +38,7 @@ class Course:
     side_px: int = 192  # of a crop
     checkpoint_steps: int = 200
     grey: bool = False  # without colour
+    plain: bool = False  # rocks as they are made, and nothing drawn over them
     rate: float = 2e-3  # of learning, at its greatest
     start: Path | None = None  # exported network to begin with
 
@@ -104,7 +105,7 @@ def _batch(tiles: Sequence[Tile], course: Course, step: int) -> tuple[Tensor, Te
     rng = np.random.default_rng([course.seed, 70, step])
     pictures, answers = [], []
     for number in rng.integers(len(tiles), size=course.crops).tolist():
-        picture, labels = draw_crop(tiles[number], course.side_px, rng)
+        picture, labels = draw_crop(tiles[number], course.side_px, rng, plain=course.plain)
         targets = targets_of(labels)
         pictures.append(normalized(picture.mean(axis=-1) if course.grey else picture))
         answers.append(

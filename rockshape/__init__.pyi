@@ -33,6 +33,7 @@ from .observation import LabelImage as LabelImage
 from .observation import Observation as Observation
 from .observation import Outline as Outline
 from .observation import PointGrid as PointGrid
+from .ranking import rank as rank
 from .report.overlay import overlay as overlay
 from .rock.instances import Instance as Instance
 from .rock.instances import Instances as Instances

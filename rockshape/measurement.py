@@ -2,7 +2,7 @@
 
 import dataclasses
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from html import escape
 from typing import TYPE_CHECKING, SupportsIndex, overload
@@ -21,6 +21,7 @@ from rockshape.rock.instances import Instances
 from rockshape.rock.point_fit import PointCounts
 from rockshape.rock.sizes import BOX, Sizes
 from rockshape.rock.sizes import COLUMNS as SIZES
+from rockshape.uncertainty import Estimate, Observables, uncertainty_columns
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -73,6 +74,8 @@ class Rock:
     readings: dict[str, Reading]  # by the measures' columns
     descriptors: Descriptors | None = None  # if they were asked for
     sizes: Sizes | None = None  # likewise
+    observables: Observables | None = None  # that its errors depend on; None: not estimated
+    estimates: dict[str, Estimate] = field(default_factory=dict)  # of measures and axes, by column
 
     @property
     def values(self) -> dict[str, float]:
@@ -151,9 +154,9 @@ class Measurement:
         table = to_frame(self).to_html(index=False, float_format="{:.4g}".format, na_rep="")
         return f"<p>{escape(repr(self))}</p>\n{table}"
 
-    def to_frame(self) -> "pd.DataFrame":
+    def to_frame(self, *, flags: bool = False, uncertainty: bool = False) -> "pd.DataFrame":
         """Table, one row a rock; see `to_frame`."""
-        return to_frame(self)
+        return to_frame(self, flags=flags, uncertainty=uncertainty)
 
     def summary(self, size: str | None = None, *, least: float | None = None) -> "Summary":
         """Sizes, sorting and classes of form of the rocks that the frame does not cut.
@@ -187,31 +190,48 @@ class Measurement:
 
 
 def columns(
-    method: str | Method, *, descriptors: bool = False, flags: bool = False, sizes: bool = False
+    method: str | Method,
+    *,
+    descriptors: bool = False,
+    flags: bool = False,
+    sizes: bool = False,
+    uncertainty: bool = False,
 ) -> tuple[str, ...]:
     """The table's columns for a method, in order, and after them those that are asked for."""
-    measures = find_method(method).measures
-    return _columns(measures, descriptors=descriptors, flags=flags, sizes=sizes)
+    found = find_method(method)
+    estimated = found.estimated if uncertainty else ()
+    return _columns(
+        found.measures, descriptors=descriptors, flags=flags, sizes=sizes, estimated=estimated
+    )
 
 
 def _columns(
-    measures: tuple[Measure, ...], *, descriptors: bool, flags: bool, sizes: bool
+    measures: tuple[Measure, ...],
+    *,
+    descriptors: bool,
+    flags: bool,
+    sizes: bool,
+    estimated: tuple[str, ...],
 ) -> tuple[str, ...]:
     measured = tuple(measure.column for measure in measures)
     sized = SIZES if sizes else ()
     described = tuple(DESCRIPTORS.values()) if descriptors else ()
-    asked = dict.fromkeys((*sized, *described, *(FLAGS if flags else ())))
+    spread = tuple(name for value in estimated for name in uncertainty_columns(value))
+    asked = dict.fromkeys((*spread, *sized, *described, *(FLAGS if flags else ())))
     return (*PLACE, *POINTS, *AXES, *measured, "reason", *asked)
 
 
-def to_frame(measurement: Measurement, *, flags: bool = False) -> "pd.DataFrame":
+def to_frame(
+    measurement: Measurement, *, flags: bool = False, uncertainty: bool = False
+) -> "pd.DataFrame":
     """A measurement as a table with the columns of `columns`, one row a rock.
 
     row and col are the centroid of the rock's pixels; axis_a_m >= axis_b_m >= axis_c_m are
     half-axes in metres, by `paper` of the fitted ellipsoid, by `robust` of the smallest box round
     the whole rock. A value that cannot be measured is NaN, and `reason` says why. With `flags`,
     branch is `range`, `image` or `labels`, flags are separated by `; `, and outline_sd_px is
-    NaN where the outline is the border of the rock's pixels.
+    NaN where the outline is the border of the rock's pixels. With `uncertainty`, the columns
+    `…_sd`, `…_low` and `…_high` of a value are its standard deviation and 90 % interval.
     """
     import pandas as pd  # noqa: PLC0415 - it takes as long as all else
 
@@ -220,12 +240,16 @@ def to_frame(measurement: Measurement, *, flags: bool = False) -> "pd.DataFrame"
         descriptors=measurement.described,
         flags=flags,
         sizes=measurement.sized,
+        estimated=find_method(measurement.method).estimated if uncertainty else (),
     )
     told = {one.number: one for one in measurement.found}
     rows = [_row(rock, _found(told.get(rock.number))) for rock in measurement.rocks]
     kinds = _types(names)  # one by one: casting a whole frame takes ten times as long
     return pd.DataFrame(
-        {name: pd.Series([row[name] for row in rows], dtype=kinds[name]) for name in names}
+        {
+            name: pd.Series([row.get(name, np.nan) for row in rows], dtype=kinds[name])
+            for name in names
+        }
     )
 
 
@@ -246,6 +270,8 @@ def _row(rock: Rock, found: dict[str, object]) -> dict[str, object]:
     row |= zip(AXES, half_axes, strict=True)
     row["outline_share"] = rock.outline_share
     row |= rock.values
+    for name, estimate in rock.estimates.items():
+        row |= zip(uncertainty_columns(name), dataclasses.astuple(estimate), strict=True)
     if rock.sizes is not None:
         row |= zip(SIZES, rock.sizes.row(), strict=True)
     if rock.descriptors is not None:

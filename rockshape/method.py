@@ -20,6 +20,7 @@ from rockshape.measures import Measure
 from rockshape.plugins.entry_points import load_records, with_entry_points
 from rockshape.rock.view import RockView
 from rockshape.segmentation.finders import FINDERS
+from rockshape.uncertainty import ErrorModel, read_error_model
 
 if TYPE_CHECKING:
     import numpy as np
@@ -52,6 +53,12 @@ class Method:
     ground: "Callable[[Observation], Ground | None]"  # the ground under rocks that are given
     fits: Callable[[RockView], Fits]
     measures: tuple[Measure, ...]  # in the order of the table
+    errors: Callable[[], Mapping[str, ErrorModel]] | None = None  # by column; None: not estimated
+
+    @property
+    def estimated(self) -> tuple[str, ...]:
+        """Columns whose uncertainty is estimated, in the order of the table."""
+        return () if self.errors is None else tuple(self.errors())
 
 
 def _published_ground(observation: "Observation") -> "Ground | None":
@@ -93,6 +100,7 @@ ROBUST = Method(
     ground=_robust_ground,
     fits=_robust_fits,
     measures=measures.ROBUST,
+    errors=read_error_model,
 )
 BUILT_IN = (PAPER.name, ROBUST.name)
 

@@ -7,8 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.errors import InputError
-from rockshape.measurement import Measurement, Rock
+from rockshape.measurement import AXES, Measurement, Rock
 from rockshape.measures import Reading
+from rockshape.measures.reading import NAN
 from rockshape.method import Fits, Method, find_method
 from rockshape.observation import Observation, locate_camera
 from rockshape.outline.descriptors import UNRESOLVED, Descriptors, describe_edge, describe_outline
@@ -22,10 +23,13 @@ from rockshape.rock.view import RockView
 from rockshape.rock.visibility import visible_fraction
 from rockshape.segmentation.finders import Finder, find_finder
 from rockshape.segmentation.ignored import without_ignored
+from rockshape.uncertainty import Estimate, Observables, estimates, observe
 
 if TYPE_CHECKING:
     from rockshape.ground import Ground
     from rockshape.segmentation import FoundRock
+
+DEPARTURE = "ellipsoid_error"  # measure of how far a surface is from its ellipsoid
 
 
 def measure(
@@ -179,6 +183,10 @@ def _rock(
     outline_px.setflags(write=False)
     pixel_rows, pixel_cols = np.nonzero(part.mask)
     descriptors = _describe(view) if asked.descriptors or asked.sizes else UNRESOLVED
+    half_axes_m = _half_axes(fits)
+    visible = visible_fraction(whole, fits.ellipse, scene.instances, scene.observation.points_m)
+    observables = _observables(view, method, readings, visible=visible)
+    found = _estimates(method, readings, observables, half_axes_m)
     return Rock(
         number=part.id,
         row=rows.start + float(pixel_rows.mean()),
@@ -187,9 +195,7 @@ def _rock(
         width_px=cols.stop - cols.start,
         height_px=rows.stop - rows.start,
         truncated=view.truncated,
-        visible_fraction=visible_fraction(
-            whole, fits.ellipse, scene.instances, scene.observation.points_m
-        ),
+        visible_fraction=visible,
         outline_px=outline_px,
         outline_share=view.outline_share,
         points=_counts(
@@ -199,11 +205,50 @@ def _rock(
         ),
         ellipse=fits.ellipse,
         ellipsoid=fits.ellipsoid,
-        half_axes_m=_half_axes(fits),
-        readings=readings,
+        half_axes_m=half_axes_m,
+        readings={name: _with(reading, found.get(name)) for name, reading in readings.items()},
         descriptors=descriptors if asked.descriptors else None,
         sizes=_sizes(view, descriptors, scene.observation) if asked.sizes else None,
+        observables=observables,
+        estimates=found,
     )
+
+
+def _observables(
+    view: RockView, method: Method, readings: dict[str, Reading], *, visible: float
+) -> Observables | None:
+    """What the errors of a rock's values depend on; None where they are not estimated.
+
+    They are not where the frame cuts the rock, nor where the method has no error model.
+    """
+    if method.errors is None or view.truncated:
+        return None
+    departure = readings.get(DEPARTURE, Reading(NAN))
+    return observe(view, visible_fraction=visible, departure=departure.value)
+
+
+def _estimates(
+    method: Method,
+    readings: dict[str, Reading],
+    observables: Observables | None,
+    half_axes_m: NDArray[np.float64] | None,
+) -> dict[str, Estimate]:
+    """Uncertainty of a rock's values and axes by their columns."""
+    if method.errors is None or observables is None:
+        return {}
+    axes = np.full(3, NAN) if half_axes_m is None else half_axes_m
+    values = {name: reading.value for name, reading in readings.items()}
+    values |= zip(AXES, axes.tolist(), strict=True)
+    ranges = {one.column: one.value_range for one in method.measures}
+    return estimates(values, observables, method.errors(), ranges)
+
+
+def _with(reading: Reading, estimate: Estimate | None) -> Reading:
+    """Reading with its uncertainty."""
+    if estimate is None:
+        return reading
+    interval = (estimate.low, estimate.high)
+    return Reading(reading.value, reading.unit, reading.reason, estimate.sd, interval)
 
 
 def _sizes(view: RockView, descriptors: Descriptors, observation: Observation) -> Sizes:

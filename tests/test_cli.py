@@ -82,7 +82,7 @@ def test_the_version_is_the_distributions_and_imports_nothing_heavy():
         (
             "zzz",
             "rockshape: unknown command 'zzz'; expected columns, completion, formats, fuse, "
-            "measure, plot, summarise, synth or validate",
+            "measure, plot, rank, summarise, synth or validate",
         ),
         ("--vresion", "rockshape: unknown option '--vresion'; did you mean '--version'?"),
         (

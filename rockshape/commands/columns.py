@@ -31,7 +31,8 @@ def run(args: argparse.Namespace) -> int:
     from rockshape.method import find_method  # noqa: PLC0415
     from rockshape.table.columns import described, json_schema  # noqa: PLC0415
 
-    names = ("image", *columns(args.method, descriptors=True, flags=True, sizes=True))
+    every = columns(args.method, descriptors=True, flags=True, sizes=True, uncertainty=True)
+    names = ("image", *every)
     told = described(names, find_method(args.method).measures)
     if args.json_schema:
         print(json.dumps(json_schema(told), indent=1, ensure_ascii=False))

@@ -147,6 +147,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="add columns on how each rock was found and what limits its view",
     )
+    how.add_argument(
+        "--uncertainty",
+        action="store_true",
+        help="add the standard deviation and the 90 %% interval of each value",
+    )
     outputs = parser.add_argument_group("outputs")
     outputs.add_argument(
         "--out",

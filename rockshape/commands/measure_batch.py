@@ -156,7 +156,7 @@ def measured(options: MeasureOptions, order: SectionOrder | None = None) -> Imag
         return ImageResult(0, None, f"{error.filename or options.image}: {error.strerror or error}")
     except Exception as error:
         return ImageResult(0, None, f"{options.image}: {type(error).__name__}: {error}")
-    frame = to_frame(measurement, flags=options.flags)
+    frame = to_frame(measurement, flags=options.flags, uncertainty=options.uncertainty)
     frame.insert(0, "image", str(options.image))
     section = None
     if order is not None:

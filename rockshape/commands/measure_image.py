@@ -39,7 +39,7 @@ def measure_image(options: MeasureOptions) -> None:
     """
     _check_outputs(options)
     measurement = measure_files(options)
-    frame = to_frame(measurement, flags=options.flags)
+    frame = to_frame(measurement, flags=options.flags, uncertainty=options.uncertainty)
     if options.out is not None:
         write_table(options.out, frame, about=about_table(options, frame))
     elif options.json:

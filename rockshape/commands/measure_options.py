@@ -35,6 +35,7 @@ class MeasureOptions:
     camera_height: str | None
     tilt: float | None
     flags: bool
+    uncertainty: bool
     out: Path | None
     labels_out: Path | None
     overlay: Path | None
@@ -66,7 +67,7 @@ class MeasureOptions:
         """What was chosen beside the files, by the options' names."""
         names = (
             "range_kind", "range_unit", "camera_view", "pieces", "max_pixels", "find", "method",
-            "descriptors", "sizes", "scale", "camera_height", "tilt", "flags",
+            "descriptors", "sizes", "scale", "camera_height", "tilt", "flags", "uncertainty",
         )  # fmt: skip
         return {name: getattr(self, name) for name in names}
 

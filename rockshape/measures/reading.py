@@ -51,7 +51,7 @@ class Reading(float):
         sd: float = NAN,
         interval: tuple[float, float] = (NAN, NAN),
     ) -> Self:
-        """Create a reading; interval is (low, high) of 95 % confidence."""
+        """Create a reading; interval is (low, high) of 90 % confidence."""
         reading = super().__new__(cls, value)
         reading._unit = unit
         reading._reason = reason
@@ -86,7 +86,7 @@ class Reading(float):
 
     @property
     def interval(self) -> tuple[float, float]:
-        """Low and high end of the 95 % confidence interval, in the value's unit."""
+        """Low and high end of the 90 % interval, in the value's unit."""
         return self._interval
 
     def __repr__(self) -> str:

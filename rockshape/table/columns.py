@@ -1,11 +1,12 @@
 """Columns of the table of rocks: unit and description of each, and their JSON Schema."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
 
 from rockshape.measures import Measure
+from rockshape.uncertainty import uncertainty_columns
 
 JSON_SCHEMA = "https://json-schema.org/draft/2020-12/schema"
 
@@ -98,7 +99,15 @@ def described(names: Sequence[str], measures: Sequence[Measure]) -> list[TableCo
         for each in measures
     }
     known = {**of_measures, **COLUMNS}
+    known |= {each.name: each for one in list(known.values()) for each in _uncertain(one)}
     return [known.get(name) or TableColumn(name, "", "", may_lack=True) for name in names]
+
+
+def _uncertain(column: TableColumn) -> Iterator[TableColumn]:
+    """Columns of a value's uncertainty."""
+    told = "standard deviation", "low end of the 90 % interval", "high end of it"
+    for name, what in zip(uncertainty_columns(column.name), told, strict=True):
+        yield TableColumn(name, column.unit, f"{what}: {column.description}", may_lack=True)
 
 
 def json_schema(columns: Sequence[TableColumn]) -> dict[str, Any]:

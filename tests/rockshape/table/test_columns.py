@@ -18,7 +18,7 @@ KINDS = {"integer": int, "number": (int, float), "string": str, "boolean": bool}
 
 @pytest.mark.parametrize("method", sorted(methods()))
 def test_every_column_of_a_table_is_described(method: str) -> None:
-    names = columns(method, descriptors=True, flags=True, sizes=True)
+    names = columns(method, descriptors=True, flags=True, sizes=True, uncertainty=True)
     for column in described(names, find_method(method).measures):
         assert column.description, column.name
         ending = re.search(r"(?<!_per)_(px2|mm2|m2|px|mm|deg|m)$", column.name)

@@ -1,0 +1,16 @@
+"""Uncertainty of the robust values: standard deviation and 90 % interval of each, for each rock."""
+
+from rockshape.uncertainty.error_model import ErrorModel, read_error_model
+from rockshape.uncertainty.estimate import COVERAGE, Estimate, estimates, uncertainty_columns
+from rockshape.uncertainty.observables import Observables, observe
+
+__all__ = [
+    "COVERAGE",
+    "ErrorModel",
+    "Estimate",
+    "Observables",
+    "estimates",
+    "observe",
+    "read_error_model",
+    "uncertainty_columns",
+]

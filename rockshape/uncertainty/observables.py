@@ -1,0 +1,52 @@
+"""Observables of a rock that the errors of its values depend on: size, noise, what is hidden."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rockshape.numerics.arrays import Floats
+from rockshape.rock.view import RockView
+
+NAMES = ("one", "width", "width²", "noise", "noise²", "hidden", "departure", "no departure")
+_MIDDLE_PX = 64.0  # width about which its logarithm is taken
+_LEAST_NOISE = 1e-3  # of the rock's width: below it range counts as exact
+_MOST_DEPARTURE = 0.2
+
+
+@dataclass(frozen=True)
+class Observables:
+    """What is known of one rock in one view, before its errors."""
+
+    width_px: float  # least Feret diameter
+    noise: float  # standard deviation of the range over the rock's width; 0 exact or without range
+    hidden: float  # share of its ellipse that is out of the frame or behind a nearer rock
+    departure: float  # of the surface from its ellipsoid, over the rock's size; NaN where unknown
+
+    def features(self) -> Floats:
+        """Features (8,) in the order of NAMES, each about 0 to 1 in size."""
+        width = np.log2(max(self.width_px, 1.0) / _MIDDLE_PX) / 2.0
+        noise = np.log10(max(self.noise, _LEAST_NOISE) / _LEAST_NOISE) / 2.0
+        known = not np.isnan(self.departure)
+        departure = min(self.departure, _MOST_DEPARTURE) / _MOST_DEPARTURE if known else 0.0
+        return np.array(
+            [1.0, width, width**2, noise, noise**2, self.hidden, departure, float(not known)]
+        )
+
+
+def observe(view: RockView, *, visible_fraction: float, departure: float) -> Observables:
+    """Observables of a rock.
+
+    visible_fraction is of its ellipse; departure its ellipsoid error, NaN where there is none.
+    """
+    width_px = view.feret_px[0] if view.resolved else 1.0
+    hidden = 1.0 if np.isnan(visible_fraction) else float(np.clip(1 - visible_fraction, 0, 1))
+    return Observables(float(width_px), _noise(view, width_px), hidden, departure)
+
+
+def _noise(view: RockView, width_px: float) -> float:
+    """Standard deviation of the range at the rock over its width; 0 where range is exact."""
+    if view.noise is None or view.camera is None or len(view.points_m) == 0:
+        return 0.0
+    depth_m = np.median(view.points_m[:, 2:], axis=0)
+    sd_m = float(view.noise.depth_sd_m(depth_m)[0])
+    return sd_m / max(float(depth_m[0]) * width_px / view.camera.fx, 1e-12)

@@ -1,0 +1,101 @@
+"""Uncertainty of values: laws of the error models, and what the table has of them."""
+
+import numpy as np
+import pytest
+
+import rockshape
+import synth
+from rockshape.measurement import AXES, columns, to_frame
+from rockshape.method import PAPER, ROBUST
+from rockshape.uncertainty import ErrorModel, Observables, read_error_model
+from rockshape.uncertainty.observables import NAMES
+
+MIDDLE = Observables(width_px=64.0, noise=0.0, hidden=0.0, departure=0.05)
+
+
+def model(**changed: float) -> ErrorModel:
+    coefficients = dict.fromkeys(NAMES, 0.0) | {"one": np.log(0.1)} | changed
+    return ErrorModel(tuple(coefficients.values()), low=-1.0, high=2.0, sd=1.0)
+
+
+def test_an_interval_takes_the_errors_quantiles_off_the_value() -> None:
+    assert model().interval(0.5, MIDDLE) == pytest.approx((0.3, 0.6))
+    assert model().deviation(0.5, MIDDLE) == pytest.approx(0.1)
+
+
+def test_a_relative_interval_is_one_of_factors() -> None:
+    relative = ErrorModel(model().coefficients, low=-1.0, high=2.0, sd=1.0, relative=True)
+    assert relative.interval(2.0, MIDDLE) == pytest.approx((2 * np.exp(-0.2), 2 * np.exp(0.1)))
+    assert relative.deviation(2.0, MIDDLE) == pytest.approx(0.2)
+
+
+def test_features_are_nought_at_the_middle_and_end_somewhere() -> None:
+    assert MIDDLE.features().tolist() == [1, 0, 0, 0, 0, 0, 0.25, 0]
+    wild = Observables(width_px=0.0, noise=1e9, hidden=1.0, departure=float("nan"))
+    assert np.isfinite(wild.features()).all()
+    assert np.isfinite(model(noise=50.0).interval(0.5, wild)).all()
+
+
+def test_every_robust_value_and_axis_has_a_model() -> None:
+    assert set(read_error_model()) == {one.column for one in ROBUST.measures} | set(AXES)
+    assert PAPER.estimated == ()
+    for one in read_error_model().values():
+        assert one.low < 0 < one.high
+        assert one.sd > 0
+
+
+def test_small_and_noisy_rocks_are_less_sure() -> None:
+    for name in ("roundness", "angularity_2d", "sphericity_2d", "axis_ratio"):
+        small = Observables(width_px=20.0, noise=0.0, hidden=0.0, departure=0.05)
+        one = read_error_model()[name]
+        assert one.scale(small) > 1.5 * one.scale(MIDDLE), name
+    for name in ("sphericity_3d", "axis_c_m"):
+        noisy = Observables(width_px=64.0, noise=0.1, hidden=0.0, departure=float("nan"))
+        one = read_error_model()[name]
+        assert one.scale(noisy) > 1.2 * one.scale(MIDDLE), name
+
+
+@pytest.fixture(scope="module")
+def measured() -> rockshape.Measurement:
+    scene = synth.make_scene(site="plain", renderer="embree", rocks=4, seed=10_007)
+    view = scene.render(0, noise="stereo")
+    return rockshape.measure(
+        view.image, range_m=view.depth_m, camera=view.camera, labels=view.labels
+    )
+
+
+def test_readings_carry_the_estimates_that_the_table_has(measured) -> None:
+    table = to_frame(measured, uncertainty=True)
+    assert tuple(table) == columns("robust", uncertainty=True)
+    assert tuple(to_frame(measured)) == columns("robust")
+    for number, rock in enumerate(measured):
+        for name in ROBUST.estimated:
+            low, high, sd = (table[f"{name}_{end}"][number] for end in ("low", "high", "sd"))
+            value = table[name][number]
+            assert np.isnan([low, high, sd]).all() == np.isnan(value)
+            if np.isfinite(value):
+                assert low <= value <= high
+                assert sd > 0
+            if name in rock.readings:
+                reading = rock.readings[name]
+                found = [reading.sd, *reading.interval]
+                assert found == pytest.approx([sd, low, high], nan_ok=True)
+
+
+def test_intervals_end_where_a_measures_values_end(measured) -> None:
+    table = to_frame(measured, uncertainty=True)
+    for one in ROBUST.measures:
+        low, high = one.value_range
+        known = table[np.isfinite(table[one.column])]
+        assert (known[f"{one.column}_low"] >= low).all()
+        assert (known[f"{one.column}_high"] <= high).all()
+
+
+def test_a_cut_rock_and_the_papers_method_have_none() -> None:
+    labels = np.zeros((60, 60), np.int32)
+    labels[:30, 10:50] = 1
+    cut = to_frame(rockshape.measure(labels=labels), uncertainty=True)
+    assert np.isfinite(cut["axis_ratio"]).all()
+    assert cut.filter(regex="_(sd|low|high)$").isna().all(axis=None)
+    paper = to_frame(rockshape.measure(labels=labels, method="paper"), uncertainty=True)
+    assert paper.filter(regex="_(sd|low|high)$").empty

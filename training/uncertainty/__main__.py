@@ -1,0 +1,27 @@
+"""Command that fits the package's error models: `python -m training.uncertainty FILE.json`."""
+
+import argparse
+import json
+from pathlib import Path
+
+from training.uncertainty.fit import as_json, fit_models
+from training.uncertainty.pairs import TAUGHT
+from training.uncertainty.table import PairSet, pair_table
+
+FITTED = PairSet("fitted", 1, 110, TAUGHT)
+CALIBRATED = PairSet("calibrated", 500, 90, TAUGHT)
+
+
+def main() -> None:
+    """Make the rocks, fit, and write the file."""
+    parser = argparse.ArgumentParser(prog="python -m training.uncertainty", description=__doc__)
+    parser.add_argument("file", type=Path, help="error_model.json to write")
+    parser.add_argument("--jobs", type=int, default=2, help="processes (%(default)s)")
+    said = parser.parse_args()
+    models = fit_models(*(pair_table(one, jobs=said.jobs) for one in (FITTED, CALIBRATED)))
+    said.file.write_text(json.dumps(as_json(models), indent=1) + "\n", encoding="utf-8")
+    print(f"written: {said.file}, {len(models)} models")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,42 @@
+"""Table of pairs, made in several processes: one row a rock, view and noise."""
+
+import dataclasses
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import pandas as pd
+
+from synth.dataset.workers import worker_pool
+from training.uncertainty.pairs import made_pairs
+
+
+@dataclass(frozen=True)
+class PairSet:
+    """Scenes to be made: their seed, number and families, or scans in their place."""
+
+    name: str
+    seed: int
+    scenes: int
+    families: Sequence[str]
+    scans: Sequence[str] = ()
+
+
+def pair_table(wanted: PairSet, *, jobs: int = 1) -> pd.DataFrame:
+    """Rows of a set: `value_…`, `truth_…` and `seen_…` columns beside what the rock is."""
+    parts = [range(first, wanted.scenes, jobs) for first in range(jobs)]
+    with worker_pool(jobs) as pool:
+        rows = [row for found in pool.map(partial(_rows, wanted), parts) for row in found]
+    rows.sort(key=lambda row: row["scene"])
+    return pd.DataFrame(rows).assign(set=wanted.name)
+
+
+def _rows(wanted: PairSet, scenes: Iterable[int]) -> list[dict[str, Any]]:
+    rows: list[dict[str, Any]] = []
+    for pair in made_pairs(wanted.seed, scenes, wanted.families, scans=wanted.scans):
+        row = dataclasses.asdict(pair)
+        for kind, name in (("values", "value"), ("truths", "truth"), ("observables", "seen")):
+            row |= {f"{name}_{key}": value for key, value in row.pop(kind).items()}
+        rows.append(row)
+    return rows

@@ -24,6 +24,7 @@ PICTURES = {
     "realism": "made pictures beside photographs of their kind",
     "ranges": "range of one scene by each sensor, and its error",
     "samples": "grain-size curves of two photographs of gravel",
+    "uncertainty": "coverage of intervals and standard deviations, from benchmarks/results.json",
     "stereo_model": "depth error by range and its autocorrelation, model and matcher",
 }
 

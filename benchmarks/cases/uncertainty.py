@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 from case import Case, Cell, Column, Table
+from scipy.stats import norm
 
 from rockshape.measurement import AXES
 from rockshape.measures import ROBUST
@@ -20,9 +21,9 @@ SCANS = tuple(
     sorted(str(each) for each in (Path(__file__).parents[2] / "examples" / "rocks").glob("*.ply"))
 )
 SETS = (
-    PairSet("families taught", 10_000, 30, TAUGHT),
-    PairSet("families held out", 10_100, 30, HELD_OUT),
-    PairSet("scans", 10_200, 30, ("scan",), SCANS),
+    PairSet("families taught", 10_000, 16, TAUGHT),
+    PairSet("families held out", 10_100, 16, HELD_OUT),
+    PairSet("scans", 10_200, 16, ("scan",), SCANS),
 )
 STRATA: Mapping[str, Sequence[tuple[str, str, float, float]]] = {
     "width": (
@@ -44,18 +45,19 @@ STRATA: Mapping[str, Sequence[tuple[str, str, float, float]]] = {
         ("sunk", "buried", 0.02, 1.1),
     ),
 }
+LEVELS = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99)
 TAIL = (1 - COVERAGE) / 2
 
 
-def intervals(*, sets: Sequence[PairSet] = SETS, jobs: int = 1) -> list[Table]:
+def intervals(*, sets: Sequence[PairSet] = SETS, jobs: int = 2) -> list[Table]:
     """Make the sets, measure, and hold each interval to the true value."""
     pairs = pd.concat([pair_table(one, jobs=jobs) for one in sets], ignore_index=True)
     return tables(pd.concat([_held(pairs, name) for name in value_names(pairs)]))
 
 
 def tables(held: pd.DataFrame) -> list[Table]:
-    """Tables by value and by stratum of `held`, a row an interval."""
-    return [_by_value(held), _by_stratum(held)]
+    """Tables by value, stratum and level of `held`, a row an interval."""
+    return [_by_value(held), _by_stratum(held), _by_level(held)]
 
 
 def _held(pairs: pd.DataFrame, name: str) -> pd.DataFrame:
@@ -67,12 +69,12 @@ def _held(pairs: pd.DataFrame, name: str) -> pd.DataFrame:
     rows = []
     for row in known.to_dict("records"):
         told = Observables(**{each.removeprefix("seen_"): row[each] for each in seen})
-        low, high = np.clip(model.interval(row[f"value_{name}"], told), low_end, high_end)
+        value = row[f"value_{name}"]
+        low, high = np.clip(model.interval(value, told), low_end, high_end)
         over = row[f"truth_{name}"] if name in AXES else 1.0
-        rows.append(
-            (low / over, high / over, row[f"truth_{name}"] / over, row[f"value_{name}"] / over)
-        )
-    ends = pd.DataFrame(rows, columns=["low", "high", "truth", "value"], index=known.index)
+        sd = model.deviation(value, told)
+        rows.append([each / over for each in (low, high, row[f"truth_{name}"], value, sd)])
+    ends = pd.DataFrame(rows, columns=["low", "high", "truth", "value", "sd"], index=known.index)
     return known[["set", *seen, "distance_m", "buried"]].join(ends).assign(name=name)
 
 
@@ -149,6 +151,21 @@ def _by_stratum(held: pd.DataFrame) -> Table:
         Column("of"),
     )
     return Table(columns, rows, name="strata")
+
+
+def _by_level(held: pd.DataFrame) -> Table:
+    """Share of true values within z standard deviations, beside a normal distribution's."""
+    off = (held["value"] - held["truth"]).abs() / held["sd"]
+    sets = held["set"].unique().tolist()
+    rows = [
+        (
+            level,
+            *(float((off <= norm.ppf((1 + level) / 2))[held["set"] == one].mean()) for one in sets),
+        )
+        for level in LEVELS
+    ]
+    columns = (Column("normal errors", "", ".2f"), *(Column(one, "", ".2f") for one in sets))
+    return Table(columns, rows, name="levels")
 
 
 UNCERTAINTY_CASE = Case(

@@ -8,8 +8,8 @@ from training.uncertainty.fit import as_json, fit_models
 from training.uncertainty.pairs import TAUGHT
 from training.uncertainty.table import PairSet, pair_table
 
-FITTED = PairSet("fitted", 1, 110, TAUGHT)
-CALIBRATED = PairSet("calibrated", 500, 90, TAUGHT)
+FITTED = PairSet("fitted", 1, 60, TAUGHT)
+CALIBRATED = PairSet("calibrated", 500, 60, TAUGHT)
 
 
 def main() -> None:

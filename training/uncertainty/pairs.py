@@ -27,15 +27,15 @@ CAMERAS = ("mer-navcam", "msl-navcam", "mer-hazcam", "imp")
 NOISES = ("none", "stereo")
 VIEWS = 2
 ROCKS = 3
-# columns of the truth of a view that are the same quantity as a value
-TRUTHS = {
-    "axis_ratio": "outline_axis_ratio",
-    "roundness": "outline_roundness",
+# columns of the truth that are the same quantity as a value
+OF_ROCK = {
     "sphericity_3d": "maximum_projection_sphericity",
     "axis_a_m": "half_axis_a_m",
     "axis_b_m": "half_axis_b_m",
     "axis_c_m": "half_axis_c_m",
 }
+OF_OUTLINE = {"axis_ratio": "outline_axis_ratio", "roundness": "outline_roundness"}
+MOST_BURIED = 0.02  # of a rock whose true outline is the one in sight
 LEAST_SEEN = 0.6  # of a rock, for its value to be compared
 
 
@@ -60,7 +60,7 @@ def made_pairs(
     """Yield the rocks of scenes of a seed, each from two sides and with each noise.
 
     What is measured by a fine camera from the same place, on exact range, stands for the truth
-    where a quantity has none of its own.
+    where a quantity has none of its own, and for that of an outline which the ground cuts.
     """
     for scene in scenes:
         rng = np.random.default_rng([seed, 90, scene])
@@ -162,4 +162,5 @@ def _truths(told: dict[Hashable, Any], reference: Rock | None) -> dict[str, floa
     known = {name: float("nan") for name in (*(one.column for one in ROBUST.measures), *AXES)}
     if reference is not None and not reference.truncated:
         known |= reference.values
-    return known | {name: float(told[column]) for name, column in TRUTHS.items() if column in told}
+    same = OF_ROCK | (OF_OUTLINE if told["buried_fraction"] <= MOST_BURIED else {})
+    return known | {name: float(told[column]) for name, column in same.items() if column in told}

@@ -12,8 +12,8 @@ HELP = "order rocks by a value, with the probability of each order"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the command's arguments."""
     parser.epilog = examples(
-        "rockshape measure rocks.png --labels rocks.tif --uncertainty --out rocks.csv",
-        "rockshape rank rocks.csv --by angularity_2d",
+        "rockshape rank rocks.csv --by angularity_2d --top 5",
+        "rockshape rank sol1.parquet sol2.parquet --by roundness --ascending --json",
     )
     parser.add_argument(
         "tables",

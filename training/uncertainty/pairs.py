@@ -20,8 +20,17 @@ from synth.handle.truth import truth_table
 from synth.scene.scene import build_scene
 from synth.spec import SceneSpec, convert_spec
 
-TAUGHT = ("rounded-polyhedron", "realistic", "superellipsoid", "perturbed", "lumpy")
-HELD_OUT = ("dented", "broken", "slab", "ellipsoid", "rounded-box")
+TAUGHT = (
+    "rounded-polyhedron",
+    "realistic",
+    "superellipsoid",
+    "perturbed",
+    "lumpy",
+    "dented",
+    "slab",
+    "rounded-box",
+)
+HELD_OUT = ("broken", "vesicular", "ellipsoid")
 FINE = "mer-pancam"
 CAMERAS = ("mer-navcam", "msl-navcam", "mer-hazcam", "imp")
 NOISES = ("none", "stereo")

@@ -21,7 +21,7 @@ from rockshape.rock.instances import Instances
 from rockshape.rock.point_fit import PointCounts
 from rockshape.rock.sizes import BOX, Sizes
 from rockshape.rock.sizes import COLUMNS as SIZES
-from rockshape.uncertainty import Estimate, Observables, uncertainty_columns
+from rockshape.uncertainty import Observables, Uncertainty, uncertainty_columns
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -75,7 +75,9 @@ class Rock:
     descriptors: Descriptors | None = None  # if they were asked for
     sizes: Sizes | None = None  # likewise
     observables: Observables | None = None  # that its errors depend on; None: not estimated
-    estimates: dict[str, Estimate] = field(default_factory=dict)  # of measures and axes, by column
+    estimates: dict[str, Uncertainty] = field(
+        default_factory=dict
+    )  # of measures and axes, by column
 
     @property
     def values(self) -> dict[str, float]:

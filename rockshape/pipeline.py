@@ -23,7 +23,7 @@ from rockshape.rock.view import RockView
 from rockshape.rock.visibility import visible_fraction
 from rockshape.segmentation.finders import Finder, find_finder
 from rockshape.segmentation.ignored import without_ignored
-from rockshape.uncertainty import Estimate, Observables, estimates, observe
+from rockshape.uncertainty import Observables, Uncertainty, estimates, observe
 
 if TYPE_CHECKING:
     from rockshape.ground import Ground
@@ -232,7 +232,7 @@ def _estimates(
     readings: dict[str, Reading],
     observables: Observables | None,
     half_axes_m: NDArray[np.float64] | None,
-) -> dict[str, Estimate]:
+) -> dict[str, Uncertainty]:
     """Uncertainty of a rock's values and axes by their columns."""
     if method.errors is None or observables is None:
         return {}
@@ -243,7 +243,7 @@ def _estimates(
     return estimates(values, observables, method.errors(), ranges)
 
 
-def _with(reading: Reading, estimate: Estimate | None) -> Reading:
+def _with(reading: Reading, estimate: Uncertainty | None) -> Reading:
     """Reading with its uncertainty."""
     if estimate is None:
         return reading

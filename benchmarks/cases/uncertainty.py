@@ -172,6 +172,6 @@ UNCERTAINTY_CASE = Case(
     name="uncertainty",
     what="coverage and width of the 90 % intervals on rocks held out",
     run=intervals,
-    smallest={"sets": (PairSet("families taught", 10_000, 2, TAUGHT),)},
+    smallest={"sets": (PairSet("families taught", 10_000, 2, TAUGHT),), "jobs": 1},
     slow=True,
 )

@@ -30,7 +30,8 @@ def draw(folder: Path) -> None:
         right.plot(levels.iloc[:, 0], levels[one], "o-", color=colour, ms=4, lw=1.2, label=one)
     left.set_xticks(range(len(names)), [name.strip("`") for name in names], rotation=50, ha="right")
     left.set(
-        ylim=(min(0.5, values["coverage"].min()), 1), ylabel="true values in the 90 % interval"
+        ylim=(min(0.5, values["coverage"].min() - 0.05), 1.02),
+        ylabel="true values in the 90 % interval",
     )
     right.set(
         xlabel="share within z standard deviations, normal errors",

@@ -1,14 +1,14 @@
 """Uncertainty of the robust values: standard deviation and 90 % interval of each, for each rock."""
 
 from rockshape.uncertainty.error_model import ErrorModel, read_error_model
-from rockshape.uncertainty.estimate import COVERAGE, Estimate, estimates, uncertainty_columns
+from rockshape.uncertainty.estimate import COVERAGE, Uncertainty, estimates, uncertainty_columns
 from rockshape.uncertainty.observables import Observables, observe
 
 __all__ = [
     "COVERAGE",
     "ErrorModel",
-    "Estimate",
     "Observables",
+    "Uncertainty",
     "estimates",
     "observe",
     "read_error_model",

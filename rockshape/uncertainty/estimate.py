@@ -1,4 +1,4 @@
-"""Estimates of one rock: each value with its standard deviation and 90 % interval."""
+"""Uncertainty of one rock: standard deviation and 90 % interval of each value."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ COVERAGE = 0.9
 
 
 @dataclass(frozen=True)
-class Estimate:
+class Uncertainty:
     """Standard deviation and 90 % interval of a value, in its unit; NaN without a value."""
 
     sd: float
@@ -20,7 +20,7 @@ class Estimate:
     high: float
 
 
-_NONE = Estimate(float("nan"), float("nan"), float("nan"))
+_NONE = Uncertainty(float("nan"), float("nan"), float("nan"))
 
 
 def uncertainty_columns(name: str) -> tuple[str, str, str]:
@@ -33,8 +33,8 @@ def estimates(
     observables: Observables,
     models: Mapping[str, ErrorModel],
     ranges: Mapping[str, tuple[float, float]],
-) -> dict[str, Estimate]:
-    """Estimates of the values that have a model, by their columns.
+) -> dict[str, Uncertainty]:
+    """Uncertainties of the values that have a model, by their columns.
 
     Intervals end where a measure's values end; `ranges` has those ends by column.
     """
@@ -47,8 +47,8 @@ def estimates(
 
 def _estimate(
     value: float, observables: Observables, model: ErrorModel, ends: tuple[float, float]
-) -> Estimate:
+) -> Uncertainty:
     if not np.isfinite(value):
         return _NONE
     low, high = (float(np.clip(end, *ends)) for end in model.interval(value, observables))
-    return Estimate(model.deviation(value, observables), low, high)
+    return Uncertainty(model.deviation(value, observables), low, high)

@@ -4,7 +4,6 @@ from collections.abc import Mapping
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from rockshape.measurement import AXES
@@ -13,7 +12,6 @@ from rockshape.uncertainty import COVERAGE, ErrorModel
 from rockshape.uncertainty.observables import NAMES, Observables
 
 FEWEST = 100  # errors, below which a value gets no model
-FEWEST_OF_FAMILY = 20  # below which a family has no say
 _RIDGE = 1e-3
 _LEAST = 1e-6  # error
 
@@ -22,27 +20,27 @@ def fit_models(fitted: pd.DataFrame, calibrated: pd.DataFrame) -> dict[str, Erro
     """Error model of each value that has errors enough.
 
     The scale is that of a Laplace distribution of greatest likelihood on the first table; the
-    interval's ends are conformal quantiles of the second table's errors over that scale, of each
-    family by itself, and of these the ones farthest out, so that they cover what the scale does not
-    explain and what a family of its own kind adds.
+    interval's ends are conformal quantiles of the second table's errors over that scale, so that
+    they cover what the scale does not explain.
     """
     models = {}
     for name in value_names(fitted):
         relative = name in AXES
-        error, features, _ = errors(fitted, name, relative=relative)
+        error, features = errors(fitted, name, relative=relative)
         if len(error) < FEWEST:
             continue
         coefficients = _fit_scale(error, features)
-        error, features, family = errors(calibrated, name, relative=relative)
+        error, features = errors(calibrated, name, relative=relative)
         if len(error) < FEWEST:
             continue
-        over = error / np.exp(features @ coefficients)
-        low, high = _ends(over, family)
+        over = np.sort(error / np.exp(features @ coefficients))
+        tail = (1 - COVERAGE) / 2
+        rank = max(int(np.floor((len(over) + 1) * tail)), 1)
         inner = over[np.abs(over) <= np.quantile(np.abs(over), 0.98)]
         models[name] = ErrorModel(
             coefficients=tuple(coefficients.round(4).tolist()),
-            low=round(low, 4),
-            high=round(high, 4),
+            low=round(float(over[rank - 1]), 4),
+            high=round(float(over[-rank]), 4),
             sd=round(float(np.sqrt(np.mean(inner**2))), 4),
             relative=relative,
         )
@@ -54,15 +52,13 @@ def value_names(table: pd.DataFrame) -> list[str]:
     return [name.removeprefix("value_") for name in map(str, table) if name.startswith("value_")]
 
 
-def errors(
-    table: pd.DataFrame, name: str, *, relative: bool
-) -> tuple[Floats, Floats, NDArray[np.str_]]:
-    """Errors (n,) of a value where its truth is known, features (n, k) and families (n,)."""
+def errors(table: pd.DataFrame, name: str, *, relative: bool) -> tuple[Floats, Floats]:
+    """Errors (n,) of a value where both it and its truth are known, and features (n, k)."""
     value, truth = table[f"value_{name}"].to_numpy(), table[f"truth_{name}"].to_numpy()
     known = np.isfinite(value) & np.isfinite(truth)
     value, truth = value[known], truth[known]
     error = np.log(value / truth) if relative else value - truth
-    return error, features_of(table[known]), table["family"].to_numpy(dtype=str)[known]
+    return error, features_of(table[known])
 
 
 def features_of(table: pd.DataFrame) -> Floats:
@@ -74,19 +70,6 @@ def features_of(table: pd.DataFrame) -> Floats:
         for row in table[names].itertuples(index=False, name=None)
     )
     return np.array([row.features() for row in rows]).reshape(-1, len(NAMES))
-
-
-def _ends(over: Floats, family: NDArray[np.str_]) -> tuple[float, float]:
-    """Ends of errors over their scale: of all families' quantiles those farthest out."""
-    tail = (1 - COVERAGE) / 2
-    ends = []
-    for one in np.unique(family):
-        own = np.sort(over[family == one])
-        if len(own) >= FEWEST_OF_FAMILY:
-            rank = max(int(np.floor((len(own) + 1) * tail)), 1)
-            ends.append((own[rank - 1], own[-rank]))
-    low, high = np.array(ends).T
-    return float(low.min()), float(high.max())
 
 
 def _fit_scale(error: Floats, features: Floats) -> Floats:

@@ -45,7 +45,7 @@ def test_every_robust_value_and_axis_has_a_model() -> None:
 
 
 def test_small_and_noisy_rocks_are_less_sure() -> None:
-    for name in ("roundness", "angularity_2d", "sphericity_2d", "axis_ratio"):
+    for name in ("ellipse_error", "angularity_2d", "sphericity_2d"):
         small = Observables(width_px=20.0, noise=0.0, hidden=0.0, departure=0.05)
         one = read_error_model()[name]
         assert one.scale(small) > 1.5 * one.scale(MIDDLE), name

@@ -111,7 +111,7 @@ def fit_points(
     found, sound = fit_without_outliers(points_m, fit)
     attached = known
     if found is not None:
-        attached = known & ~stray_points(found.ellipsoid, grid_m, known, noise)
+        attached = known & ~stray_points(found.ellipsoid, grid_m, known, noise, mask=mask)
         kept = sound & attached[known]
         if (kept != sound).mean() > SAME:
             found = fit(kept, found.ellipsoid)

@@ -17,6 +17,7 @@ STEP, STEP_PX = 0.02, 1.0  # of the rock's size or of a pixel's: step of height 
 SLIDE, SLIDE_PX = 0.06, 2.0  # and of depth
 NOISE_STEP = 2.0  # further standard deviations of the range
 MIN_PIECE = 0.02  # of the points
+MAX_GAPS = 0.2  # of the rock's pixels
 
 
 def stray_points(
@@ -24,6 +25,8 @@ def stray_points(
     grid_m: NDArray[np.float64],
     known: NDArray[np.bool_],
     noise: "NoiseModel | None",
+    *,
+    mask: NDArray[np.bool_],
 ) -> NDArray[np.bool_]:
     """Points (rows, cols) of grid_m (rows, cols, 3) that do not hang together with the surface.
 
@@ -32,7 +35,8 @@ def stray_points(
     piece neighbours may differ by 0.02 of the rock's size or by a pixel in their height over the
     ellipsoid, and by 0.06 or two pixels in depth, each and two standard deviations of the range.
     So a row or a column that is off is left out however near to the ellipsoid it lies. Where more
-    than a tenth of the points would lie apart none does: the range is that rough.
+    than a tenth of the points would lie apart none does: the range is that rough. Nor does any
+    where a fifth of the mask's pixels (rows, cols) have no point: gaps part pieces as well.
     """
     size_m = 2 * float(ellipsoid.half_axes_m[1])
     height = np.full(known.shape, np.nan)
@@ -48,7 +52,8 @@ def stray_points(
     )
     small = np.bincount(pieces[near], minlength=pieces.size) < MIN_PIECE * known.sum()
     apart = near & small[pieces]
-    if apart.sum() > MAX_SHARE * known.sum():
+    gaps = mask.sum() - known.sum()
+    if apart.sum() > MAX_SHARE * known.sum() or gaps > MAX_GAPS * mask.sum():
         apart[:] = False
     return np.asarray(known & (~near | apart))
 

@@ -75,14 +75,18 @@ class Rock:
     descriptors: Descriptors | None = None  # if they were asked for
     sizes: Sizes | None = None  # likewise
     observables: Observables | None = None  # that its errors depend on; None: not estimated
-    estimates: dict[str, Uncertainty] = field(
-        default_factory=dict
-    )  # of measures and axes, by column
+    estimates: dict[str, Uncertainty] = field(default_factory=dict)  # of `quantities`
 
     @property
     def values(self) -> dict[str, float]:
         """The value of each measure by its column, NaN where it has none."""
         return {column: reading.value for column, reading in self.readings.items()}
+
+    @property
+    def quantities(self) -> dict[str, float]:
+        """The half-axes and the value of each measure by their columns, NaN where it has none."""
+        half_axes_m = [float("nan")] * 3 if self.half_axes_m is None else self.half_axes_m.tolist()
+        return dict(zip(AXES, half_axes_m, strict=True)) | self.values
 
     @property
     def reason(self) -> str:
@@ -265,13 +269,11 @@ def _found(found: "FoundRock | None") -> dict[str, object]:
 
 def _row(rock: Rock, found: dict[str, object]) -> dict[str, object]:
     """Everything that is known of a rock, by its column."""
-    half_axes = [np.nan] * 3 if rock.half_axes_m is None else rock.half_axes_m
     row: dict[str, object] = {"rock": rock.number, "reason": rock.reason}
     row |= {name: getattr(rock, name) for name in PLACE[1:]}
     row |= dataclasses.asdict(rock.points)
-    row |= zip(AXES, half_axes, strict=True)
     row["outline_share"] = rock.outline_share
-    row |= rock.values
+    row |= rock.quantities
     for name, estimate in rock.estimates.items():
         row |= zip(uncertainty_columns(name), dataclasses.astuple(estimate), strict=True)
     if rock.sizes is not None:

@@ -60,6 +60,11 @@ class Method:
         """Columns whose uncertainty is estimated, in the order of the table."""
         return () if self.errors is None else tuple(self.errors())
 
+    @property
+    def value_ranges(self) -> dict[str, tuple[float, float]]:
+        """Ends of the values of each measure by its column."""
+        return {one.column: one.value_range for one in self.measures}
+
 
 def _published_ground(observation: "Observation") -> "Ground | None":
     from rockshape.segmentation.published import ground_as_published  # noqa: PLC0415 - half a second

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.errors import InputError
-from rockshape.measurement import AXES, Measurement, Rock
+from rockshape.measurement import Measurement, Rock
 from rockshape.measures import Reading
 from rockshape.measures.reading import NAN
 from rockshape.method import Fits, Method, find_method
@@ -183,11 +183,8 @@ def _rock(
     outline_px.setflags(write=False)
     pixel_rows, pixel_cols = np.nonzero(part.mask)
     descriptors = _describe(view) if asked.descriptors or asked.sizes else UNRESOLVED
-    half_axes_m = _half_axes(fits)
     visible = visible_fraction(whole, fits.ellipse, scene.instances, scene.observation.points_m)
-    observables = _observables(view, method, readings, visible=visible)
-    found = _estimates(method, readings, observables, half_axes_m)
-    return Rock(
+    rock = Rock(
         number=part.id,
         row=rows.start + float(pixel_rows.mean()),
         col=cols.start + float(pixel_cols.mean()),
@@ -205,13 +202,13 @@ def _rock(
         ),
         ellipse=fits.ellipse,
         ellipsoid=fits.ellipsoid,
-        half_axes_m=half_axes_m,
-        readings={name: _with(reading, found.get(name)) for name, reading in readings.items()},
+        half_axes_m=_half_axes(fits),
+        readings=readings,
         descriptors=descriptors if asked.descriptors else None,
         sizes=_sizes(view, descriptors, scene.observation) if asked.sizes else None,
-        observables=observables,
-        estimates=found,
+        observables=_observables(view, method, readings, visible=visible),
     )
+    return _estimated(rock, method)
 
 
 def _observables(
@@ -227,20 +224,13 @@ def _observables(
     return observe(view, visible_fraction=visible, departure=departure.value)
 
 
-def _estimates(
-    method: Method,
-    readings: dict[str, Reading],
-    observables: Observables | None,
-    half_axes_m: NDArray[np.float64] | None,
-) -> dict[str, Uncertainty]:
-    """Uncertainty of a rock's values and axes by their columns."""
-    if method.errors is None or observables is None:
-        return {}
-    axes = np.full(3, NAN) if half_axes_m is None else half_axes_m
-    values = {name: reading.value for name, reading in readings.items()}
-    values |= zip(AXES, axes.tolist(), strict=True)
-    ranges = {one.column: one.value_range for one in method.measures}
-    return estimates(values, observables, method.errors(), ranges)
+def _estimated(rock: Rock, method: Method) -> Rock:
+    """Rock with the uncertainty of its values and axes, where it is estimated."""
+    if method.errors is None or rock.observables is None:
+        return rock
+    found = estimates(rock.quantities, rock.observables, method.errors(), method.value_ranges)
+    readings = {name: _with(reading, found.get(name)) for name, reading in rock.readings.items()}
+    return replace(rock, readings=readings, estimates=found)
 
 
 def _with(reading: Reading, estimate: Uncertainty | None) -> Reading:

@@ -1,6 +1,7 @@
 """Coverage and width of the 90 % intervals on rocks, families and scans held out."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import astuple
 from pathlib import Path
 
 import numpy as np
@@ -9,12 +10,12 @@ from case import Case, Cell, Column, Table
 from scipy.stats import norm
 
 from rockshape.measurement import AXES
-from rockshape.measures import ROBUST
+from rockshape.method import ROBUST
 from rockshape.numerics.arrays import Floats
-from rockshape.uncertainty import COVERAGE, Observables, read_error_model
+from rockshape.uncertainty import COVERAGE, estimates, read_error_model
 from training.uncertainty.fit import value_names
 from training.uncertainty.pairs import HELD_OUT, TAUGHT
-from training.uncertainty.table import PairSet, pair_table
+from training.uncertainty.table import PairSet, observables_of, pair_table
 
 # held out: the form was developed on apollo_sample 1, 3, 4, 7, 8 and 17
 SCANS = tuple(
@@ -62,20 +63,17 @@ def tables(held: pd.DataFrame) -> list[Table]:
 
 def _held(pairs: pd.DataFrame, name: str) -> pd.DataFrame:
     """Intervals of one value beside the truth, both over the truth for an axis."""
-    model = read_error_model()[name]
-    seen = [column for column in pairs if column.startswith("seen_")]
     known = pairs[np.isfinite(pairs[f"value_{name}"]) & np.isfinite(pairs[f"truth_{name}"])]
-    low_end, high_end = {one.column: one.value_range for one in ROBUST}.get(name, (0.0, np.inf))
-    rows = []
-    for row in known.to_dict("records"):
-        told = Observables(**{each.removeprefix("seen_"): row[each] for each in seen})
-        value = row[f"value_{name}"]
-        low, high = np.clip(model.interval(value, told), low_end, high_end)
-        over = row[f"truth_{name}"] if name in AXES else 1.0
-        sd = model.deviation(value, told)
-        rows.append([each / over for each in (low, high, row[f"truth_{name}"], value, sd)])
-    ends = pd.DataFrame(rows, columns=["low", "high", "truth", "value", "sd"], index=known.index)
-    return known[["set", *seen, "distance_m", "buried"]].join(ends).assign(name=name)
+    models, ranges = read_error_model(), ROBUST.value_ranges
+    found = [
+        astuple(estimates({name: value}, seen, models, ranges)[name])
+        for value, seen in zip(known[f"value_{name}"], observables_of(known), strict=True)
+    ]
+    held = pd.DataFrame(found, columns=["sd", "low", "high"], index=known.index)
+    held[["value", "truth"]] = known[[f"value_{name}", f"truth_{name}"]]
+    if name in AXES:
+        held = held.div(held["truth"], axis=0)
+    return known.filter(regex="^(set|seen_.*|distance_m|buried)$").join(held).assign(name=name)
 
 
 def _score(low: Floats, high: Floats, truth: Floats) -> float:

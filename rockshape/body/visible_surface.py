@@ -29,10 +29,9 @@ def visible_surface(
     larger patch there is the rock's own: a rock is no ellipsoid.
 
     Without noise the points are the measured ones. Otherwise a height, the radial distance from
-    the ellipsoid, is the mean over a square two
-    pixels wider than the noise's window, times s²/(s² + v): s is how far rocks depart from
-    ellipsoids, 0.08 of their size, and v the variance that noise leaves in the mean (a Wiener
-    filter).
+    the ellipsoid, is the mean over a square two pixels wider than the noise's window, times
+    s²/(s² + v): s is how far rocks depart from ellipsoids, 0.08 of their size, and v the variance
+    that noise leaves in the mean (a Wiener filter).
     """
     beyond = np.ones(attached.shape, dtype=np.bool_)  # where nothing is known, as well
     beyond[attached] = facing(ellipsoid, grid_m[attached]) < 0

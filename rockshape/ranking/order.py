@@ -32,10 +32,10 @@ def rank(table: "pd.DataFrame", by: str, *, ascending: bool = False) -> "pd.Data
     sd_name, low_name, high_name = uncertainty_columns(by)
     if by not in table:
         hint = did_you_mean(by, list(table.columns))
-        raise InputError(f"by: expected a column of the table, found {by!r}{hint}")
+        raise InputError(f"by (--by): expected a column of the table, found {by!r}{hint}")
     if sd_name not in table:
         raise InputError(
-            f"by: expected the column {sd_name}, as --uncertainty writes it, found none"
+            f"by (--by): expected the column {sd_name}, as --uncertainty writes it, found none"
         )
     known = table[np.isfinite(table[by]) & np.isfinite(table[sd_name])]
     order = np.argsort(known[by].to_numpy() * (1 if ascending else -1), kind="stable")

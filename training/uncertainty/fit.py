@@ -9,7 +9,8 @@ from scipy.optimize import minimize
 from rockshape.measurement import AXES
 from rockshape.numerics.arrays import Floats
 from rockshape.uncertainty import COVERAGE, ErrorModel
-from rockshape.uncertainty.observables import NAMES, Observables
+from rockshape.uncertainty.observables import NAMES
+from training.uncertainty.table import observables_of
 
 FEWEST = 100  # errors, below which a value gets no model
 _RIDGE = 1e-3
@@ -63,13 +64,8 @@ def errors(table: pd.DataFrame, name: str, *, relative: bool) -> tuple[Floats, F
 
 def features_of(table: pd.DataFrame) -> Floats:
     """Features (n, k) of the rocks of a table of pairs."""
-    names = [str(name) for name in table if str(name).startswith("seen_")]
-    fields = [name.removeprefix("seen_") for name in names]
-    rows = (
-        Observables(**dict(zip(fields, row, strict=True)))
-        for row in table[names].itertuples(index=False, name=None)
-    )
-    return np.array([row.features() for row in rows]).reshape(-1, len(NAMES))
+    rows = [seen.features() for seen in observables_of(table)]
+    return np.array(rows).reshape(-1, len(NAMES))
 
 
 def _fit_scale(error: Floats, features: Floats) -> Floats:

@@ -134,7 +134,7 @@ def _pairs(scene: int, fine: SceneSpec, camera: str) -> Iterator[Pair]:
                     noise=noise,
                     distance_m=float(told["depth_m"]),
                     buried=float(told["buried_fraction"]),
-                    values=_values(rock),
+                    values=rock.quantities,
                     truths=_truths(told, reference.get(rock.number)),
                     observables=rock.observables,
                 )
@@ -159,11 +159,6 @@ def _measured(
         camera=camera_of(spec.camera),
         labels=parts.labels,
     )
-
-
-def _values(rock: Rock) -> dict[str, float]:
-    axes = np.full(3, np.nan) if rock.half_axes_m is None else rock.half_axes_m
-    return rock.values | dict(zip(AXES, axes.tolist(), strict=True))
 
 
 def _truths(told: dict[Hashable, Any], reference: Rock | None) -> dict[str, float]:

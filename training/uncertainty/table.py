@@ -8,6 +8,7 @@ from typing import Any
 
 import pandas as pd
 
+from rockshape.uncertainty import Observables
 from synth.dataset.workers import worker_pool
 from training.uncertainty.pairs import made_pairs
 
@@ -30,6 +31,12 @@ def pair_table(wanted: PairSet, *, jobs: int = 1) -> pd.DataFrame:
         rows = [row for found in pool.map(partial(_rows, wanted), parts) for row in found]
     rows.sort(key=lambda row: row["scene"])
     return pd.DataFrame(rows).assign(set=wanted.name)
+
+
+def observables_of(table: pd.DataFrame) -> list[Observables]:
+    """Observables of each row, from its `seen_…` columns."""
+    seen = table[[f"seen_{name}" for name in Observables.__dataclass_fields__]]
+    return [Observables(*row) for row in seen.itertuples(index=False, name=None)]
 
 
 def _rows(wanted: PairSet, scenes: Iterable[int]) -> list[dict[str, Any]]:

@@ -56,8 +56,11 @@ def test_rocks_without_a_value_are_left_out() -> None:
 @pytest.mark.parametrize(
     ("by", "told"),
     [
-        ("roundnes", "found 'roundnes'; did you mean 'roundness'"),
-        ("rock", "expected the column rock_sd, as --uncertainty writes it, found none"),
+        ("roundnes", r"by \(--by\): .* found 'roundnes'; did you mean 'roundness'"),
+        (
+            "rock",
+            r"by \(--by\): expected the column rock_sd, as --uncertainty writes it, found none",
+        ),
     ],
 )
 def test_a_column_without_uncertainty_is_refused(by: str, told: str) -> None:

@@ -82,6 +82,15 @@ def test_readings_carry_the_estimates_that_the_table_has(measured) -> None:
                 assert found == pytest.approx([sd, low, high], nan_ok=True)
 
 
+def test_quantities_are_the_axes_and_values_of_the_table(measured) -> None:
+    table = to_frame(measured)
+    for number, rock in enumerate(measured):
+        assert set(rock.estimates) == set(rock.quantities) == {*AXES, *rock.values}
+        assert table.loc[number, list(rock.quantities)].tolist() == pytest.approx(
+            list(rock.quantities.values()), nan_ok=True
+        )
+
+
 def test_intervals_end_where_a_measures_values_end(measured) -> None:
     table = to_frame(measured, uncertainty=True)
     for one in ROBUST.measures:

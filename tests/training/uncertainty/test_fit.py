@@ -7,6 +7,7 @@ import pytest
 from rockshape.uncertainty import Observables
 from training.uncertainty.fit import as_json, errors, fit_models
 from training.uncertainty.pairs import TAUGHT, made_pairs
+from training.uncertainty.table import observables_of
 
 
 def drawn(seed: int, rocks: int) -> pd.DataFrame:
@@ -57,6 +58,11 @@ def test_nine_of_ten_true_values_lie_within(model, width_px: tuple[int, int]) ->
 def test_too_few_errors_make_no_model() -> None:
     assert fit_models(drawn(1, 50), drawn(2, 2000)) == {}
     assert as_json({})["models"] == {}
+
+
+def test_observables_are_read_back_as_they_were_written() -> None:
+    seen = observables_of(drawn(1, 3))
+    assert seen[2] == Observables(drawn(1, 3)["seen_width_px"][2], 0.0, 0.0, 0.05)
 
 
 def test_errors_of_axes_are_of_their_logarithms() -> None:

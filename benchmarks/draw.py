@@ -11,11 +11,15 @@ import sys
 from pathlib import Path
 
 PICTURES = {
+    "beds": "gravel beds from above, beside a photograph",
+    "colour": "scenes in colour under several lights, and things that are no rock",
     "contact_sheets": "families of rocks at five settings of a knob, rocks-*.jpg",
     "segmentation_steps": "steps of the robust segmentation on a field with matched pictures",
     "segmentation_ways": "six kinds of scene as published, robust, and without range",
     "segmentation_mars": "the Mars example as published, robust, and without range",
     "segmentation_cases": "best and worst views of the suite `segmentation` (minutes)",
+    "grounds": "six made grounds beside a frame of Mars, and tails of drift sand",
+    "oblique_beds": "gravel beds from the side with their labels, beside photographs of Mars",
     "finder": "photographs with masks, by the image branch and by the network",
     "findings": "shares of each cause, suite `views` (minutes)",
     "outlines": "level of the 2-D measures by size, on smooth, rough and real outlines",

@@ -45,8 +45,8 @@ def cell(image: np.ndarray) -> np.ndarray:
     return cv2.copyMakeBorder(large, 0, 4, 0, 4, cv2.BORDER_CONSTANT, value=[255] * 3)
 
 
-def main() -> None:
-    """Draw docs/images/beds.jpg: two rows of four, the last a photograph."""
+def draw(folder: Path) -> None:
+    """Write beds.jpg: two rows of four, the last a photograph."""
     cells = []
     for index, spec in enumerate(BEDS):
         light = {**spec["light"], "azimuth_deg": [205, 245]}
@@ -55,8 +55,4 @@ def main() -> None:
     cells.append(cell(np.asarray(Image.open(PHOTO).convert("RGB"))[:SIDE_PX, :SIDE_PX]))
     rows = [np.concatenate(cells[start : start + 4], axis=1) for start in (0, 4)]
     sheet = Image.fromarray(np.concatenate(rows))
-    sheet.save(ROOT / "docs" / "images" / "beds.jpg", quality=88)
-
-
-if __name__ == "__main__":
-    main()
+    sheet.save(folder / "beds.jpg", quality=88)

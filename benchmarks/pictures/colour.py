@@ -1,7 +1,4 @@
-"""Contact sheet of scenes in colour: low sun, veins and layers, wet, things and their mask.
-
-Run it from the repository's root: `python -m benchmarks.pictures.colour`.
-"""
+"""Contact sheet of scenes in colour: low sun, veins and layers, wet, things and their mask."""
 
 from pathlib import Path
 
@@ -10,7 +7,6 @@ import numpy as np
 
 import synth
 
-OUT = Path(__file__).parents[2] / "docs" / "images" / "colour.jpg"
 CELL_PX = 340
 QUALITY = 82
 COMMON = {
@@ -32,8 +28,8 @@ SCENES = (
 )
 
 
-def main() -> None:
-    """Render the scenes and write the sheet."""
+def draw(folder: Path) -> None:
+    """Write colour.jpg: five scenes, and the mask of the last one's things."""
     views = [synth.make_scene({**COMMON, "image": FILMIC, **one}).render(0) for one in SCENES]
     colours = np.array(
         [[0] * 3, [230] * 3, [0, 160, 230], [120] * 3, [230, 190, 0], [0] * 3, [220, 40, 20]]
@@ -42,8 +38,4 @@ def main() -> None:
     cells.append(colours[views[-1].not_rock].astype(np.uint8))
     small = [cv2.resize(cell, (CELL_PX, CELL_PX), interpolation=cv2.INTER_AREA) for cell in cells]
     sheet = np.concatenate([np.concatenate(small[:3], axis=1), np.concatenate(small[3:], axis=1)])
-    cv2.imwrite(str(OUT), sheet[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, QUALITY])
-
-
-if __name__ == "__main__":
-    main()
+    cv2.imwrite(str(folder / "colour.jpg"), sheet[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, QUALITY])

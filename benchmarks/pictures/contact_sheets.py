@@ -24,6 +24,7 @@ from synth.spec.rocks import RocksSpec
 
 SIZE_PX, FIELD_M, FINE = 280, 0.6, 2
 HALF_AXES_M = np.array([0.2, 0.165, 0.125])
+SCANS = ("apollo_sample16", "apollo_sample2")
 CAMERA_RAD, SUN = np.deg2rad(28.0), np.array([-0.62, -0.35, 0.62])
 SKY, ALBEDO, GROUND_ALBEDO = 0.22, 0.5, 0.42
 
@@ -117,8 +118,7 @@ def concave(
 
 def real(folder: Path) -> np.ndarray:
     """Return two scans, two pieces of a photograph of gravel and one of Mars, in a row."""
-    scans = sorted((folder / "rocks").glob("*.ply"))
-    tiles = [picture(scan(str(path), diameter_m=0.38), yaw_rad=0.7) for path in scans]
+    tiles = [picture(scan(path, diameter_m=0.38), yaw_rad=0.7) for path in scans(folder)]
     gravel = np.array(Image.open(folder / "grains" / "1_P1060330_1.jpg").convert("L"))
     mars = np.array(Image.open(folder / "mars" / "i944014r.png").convert("L"))
     for photo, (top, left, size) in (
@@ -131,7 +131,12 @@ def real(folder: Path) -> np.ndarray:
     return np.hstack(tiles)
 
 
-def sheets(scans: list[Path]) -> dict[str, list[Callable[[], RockModel]]]:
+def scans(examples: Path) -> list[str]:
+    """Return the meshes of SCANS."""
+    return [str(examples / "rocks" / f"{name}.ply") for name in SCANS]
+
+
+def sheets(scans: list[str]) -> dict[str, list[Callable[[], RockModel]]]:
     """Return the makers of each sheet's five rocks."""
     flat = [HALF_AXES_M * [1.0, k, k**2] for k in (0.7, 0.8, 0.9, 1.0, 1.1)]
     return {
@@ -167,7 +172,7 @@ def sheets(scans: list[Path]) -> dict[str, list[Callable[[], RockModel]]]:
         },
         "with-dents": [
             *(lambda name=name: concave(name, 1, dents=DENTS[name]) for name in DENTS),
-            lambda: scan(str(scans[0]), diameter_m=0.38),
+            lambda: scan(scans[0], diameter_m=0.38),
         ],
         "worn": [
             lambda amount=amount: concave("broken", 1, amount)
@@ -175,9 +180,9 @@ def sheets(scans: list[Path]) -> dict[str, list[Callable[[], RockModel]]]:
         ],
         "scan": [
             lambda path=path, rms=rms: (
-                scan(str(path), diameter_m=0.38)
+                scan(path, diameter_m=0.38)
                 if rms == 0.0
-                else rough(scan(str(path), diameter_m=0.38), rms, (10, 50))
+                else rough(scan(path, diameter_m=0.38), rms, (10, 50))
             )
             for path, rms in zip(
                 [*scans, *scans, scans[0]], (0.0, 0.0, 0.008, 0.008, 0.012), strict=True
@@ -190,7 +195,7 @@ def draw(folder: Path) -> None:
     """Write rocks-NAME.jpg of every sheet."""
     examples = Path(__file__).parents[2] / "examples"
     _save(real(examples), folder / "rocks-real.jpg")
-    for name, makers in sheets(sorted((examples / "rocks").glob("*.ply"))).items():
+    for name, makers in sheets(scans(examples)).items():
         row = np.hstack([picture(make(), yaw_rad=0.7) for make in makers])
         _save(row, folder / f"rocks-{name}.jpg")
 

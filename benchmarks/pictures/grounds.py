@@ -48,8 +48,8 @@ def made(spec: dict[str, object]) -> np.ndarray:
     return scene.render(0).image
 
 
-def main() -> None:
-    """Draw grounds.jpg, six made grounds and a photograph, and tails.jpg, in docs/images."""
+def draw(folder: Path) -> None:
+    """Write grounds.jpg, six made grounds and a photograph, and tails.jpg."""
     cells = [cell(made(spec)) for spec in SCENES]
     photo = cell(np.asarray(Image.open(PHOTO).convert("RGB")))
     rows = [
@@ -57,9 +57,5 @@ def main() -> None:
         np.concatenate([*cells[3:], np.full_like(photo, 255)], axis=1),
     ]
     sheet = Image.fromarray(np.concatenate(rows))
-    sheet.save(ROOT / "docs" / "images" / "grounds.jpg", quality=88)
-    Image.fromarray(made(TAILS)).save(ROOT / "docs" / "images" / "tails.jpg", quality=88)
-
-
-if __name__ == "__main__":
-    main()
+    sheet.save(folder / "grounds.jpg", quality=88)
+    Image.fromarray(made(TAILS)).save(folder / "tails.jpg", quality=88)

@@ -1,7 +1,9 @@
 """Contact sheet of oblique gravel beds beside photographs of Mars."""
 
+from pathlib import Path
+
 import numpy as np
-from beds import COLOUR, ROOT, SIDE_PX, cell
+from pictures.beds import COLOUR, ROOT, SIDE_PX, cell
 from PIL import Image
 
 from synth import make_bed
@@ -32,8 +34,8 @@ BEDS = (
 )
 
 
-def main() -> None:
-    """Draw docs/images/beds_oblique.jpg: tiles above, labels and photographs below."""
+def draw(folder: Path) -> None:
+    """Write beds_oblique.jpg: tiles above, labels and photographs below."""
     tiles, labels = [], []
     hues = np.random.default_rng(0).integers(60, 256, (65536, 3)).astype(np.uint8)
     hues[0] = 0
@@ -51,8 +53,4 @@ def main() -> None:
     below = [cell(labels[1]), cell(labels[3]), *photos]
     rows = [np.concatenate(row, axis=1) for row in (tiles, below)]
     sheet = np.concatenate(rows)
-    Image.fromarray(sheet).save(ROOT / "docs" / "images" / "beds_oblique.jpg", quality=85)
-
-
-if __name__ == "__main__":
-    main()
+    Image.fromarray(sheet).save(folder / "beds_oblique.jpg", quality=85)

@@ -45,12 +45,13 @@ def draw(folder: Path, part: str) -> None:
         "cases": lambda: (_cases(), 2, SKY_ROWS),
     }[part]()
     rows = -(-len(panels) // columns)
-    figure, axes = plt.subplots(rows, columns, figsize=(4.2 * columns, 3.5 * rows), dpi=100)
+    figure, axes = plt.subplots(
+        rows, columns, figsize=(4.2 * columns, 3.5 * rows), dpi=100, layout="constrained"
+    )
     for axis, (title, picture, options) in zip(axes.ravel(), panels, strict=False):
         axis.imshow(picture[top:], interpolation="nearest", **options)
         axis.set_title(title, fontsize=9)
         axis.set_axis_off()
-    figure.tight_layout(pad=1.0)
     figure.savefig(folder / f"segmentation_{part}.jpg", pil_kwargs={"quality": 70})
     plt.close(figure)
 

@@ -6,7 +6,7 @@ dataset, as a user would; `captured_view` takes a capture as it is.
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -16,8 +16,10 @@ import scipy.ndimage as ndi
 from numpy.typing import NDArray
 
 from rockshape.camera.camera import Camera
+from rockshape.fusion.pose import CameraPose
 from rockshape.io import read_camera, read_image, read_range
 from rockshape.observation import Observation
+from synth.camera.calibration import calibrated
 from synth.camera.camera import RenderCamera
 from synth.dataset.common import write_common
 from synth.dataset.write import write_scene
@@ -29,6 +31,7 @@ from validation.records.truth import (
     RockInView,
     SceneTruth,
     read_instances,
+    read_poses,
     read_scene_truth,
     rock_columns,
     view_columns,
@@ -47,6 +50,8 @@ class SceneView:
     instances: NDArray[np.int32]  # (rows, cols), rock i as i + 1
     rocks: tuple[RockInView, ...]  # what the view shows of each
     truth: pd.DataFrame  # one row a rock: its own truth and that of the view
+    reported_pose: CameraPose | None = None  # None of a capture, as the true one
+    true_pose: CameraPose | None = None
 
     def observation(self, points_m: NDArray[np.float64] | None) -> Observation:
         """View with range as given, or without any."""
@@ -65,6 +70,10 @@ def dataset_views(spec: SceneSpec, *, exact: bool = False) -> tuple[list[SceneVi
         camera = read_camera(folder / "camera.json")
         scene = folder / "000000"
         truth = read_scene_truth(scene / "scene_gt_shape.json")
+        poses = read_poses(scene / "scene_camera.json")
+        true_poses = poses
+        if calibrated(spec):
+            true_poses = read_poses(scene / "scene_gt_camera.json")
         exact_folder = "depth_true" if exact and not sensor.exact_range else "depth"
         views = []
         for number in range(spec.views.count):
@@ -74,16 +83,15 @@ def dataset_views(spec: SceneSpec, *, exact: bool = False) -> tuple[list[SceneVi
             exact_m = points_m
             if exact_folder != "depth":
                 exact_m = read_range(scene / exact_folder / name, shape=image.shape, camera=camera)
-            views.append(
-                _view(
-                    number,
-                    image,
-                    camera=camera,
-                    ranges_m=(points_m, exact_m),
-                    instances=read_instances(scene / "labels" / name),
-                    truth=truth,
-                )
+            view = _view(
+                number,
+                image,
+                camera=camera,
+                ranges_m=(points_m, exact_m),
+                instances=read_instances(scene / "labels" / name),
+                truth=truth,
             )
+            views.append(replace(view, reported_pose=poses[number], true_pose=true_poses[number]))
     return views, backend
 
 

@@ -10,6 +10,7 @@ import pandas as pd
 from msgspec import Struct
 from numpy.typing import NDArray
 
+from rockshape.fusion.pose import CameraPose
 from synth.dataset.files import plain
 from validation.errors import InputError
 
@@ -36,6 +37,13 @@ class RockInView(Struct, frozen=True, kw_only=True):
     pixel_m: float
     outline_axis_ratio: float
     outline_roundness: float | None
+
+
+class ViewPose(Struct, frozen=True, kw_only=True):
+    """What `scene_camera.json` says of a view's pose, lengths in mm."""
+
+    cam_R_w2c: tuple[float, ...]  # noqa: N815 - BOP's name
+    cam_t_w2c: tuple[float, float, float]
 
 
 class SceneTruth(Struct, frozen=True, kw_only=True):
@@ -82,6 +90,21 @@ def read_instances(path: Path) -> NDArray[np.int32]:
         found = "no image" if image is None else f"{image.shape}"
         raise InputError(f"{path}: expected a label image (rows, cols), found {found}")
     return image.astype(np.int32)
+
+
+def read_poses(path: Path) -> tuple[CameraPose, ...]:
+    """Read the pose of each view of a scene, in their order, from a file as `scene_camera.json`.
+
+    Raises:
+        InputError: the file is missing or lacks a field.
+    """
+    views = _decode(path, dict[str, ViewPose])
+    return tuple(
+        CameraPose.from_world_to_camera(
+            np.reshape(views[number].cam_R_w2c, (3, 3)), np.array(views[number].cam_t_w2c) / 1000
+        )
+        for number in sorted(views, key=int)
+    )
 
 
 def rock_columns(rock: RockTruth) -> dict[str, object]:

@@ -34,8 +34,7 @@ if TYPE_CHECKING:
 
 OUTLINE_COLOUR, ELLIPSE_COLOUR = "#ffd138", "#40b4ff"
 PLACE = ("rock", "row", "col", "area_px", "width_px", "height_px", "truncated", "visible_fraction")
-FOUND = ("branch", "flags", "outline_sd_px")
-FLAGS = (*FOUND, "outline_share")
+FLAGS = ("branch", "flags", "outline_sd_px", "outline_share")
 POINTS = tuple(PointCounts.__dataclass_fields__)
 AXES = ("axis_a_m", "axis_b_m", "axis_c_m")
 # the descriptors' columns, by the fields of the record
@@ -72,6 +71,7 @@ class Rock:
     ellipsoid: Ellipsoid | None
     half_axes_m: NDArray[np.float64] | None  # (3,), longest first
     readings: dict[str, Reading]  # by the measures' columns
+    flags: tuple[str, ...] = ()  # what its view lacks and what weakens its values
     descriptors: Descriptors | None = None  # if they were asked for
     sizes: Sizes | None = None  # likewise
     observables: Observables | None = None  # that its errors depend on; None: not estimated
@@ -124,6 +124,7 @@ class Measurement:
     found: "tuple[FoundRock, ...]" = ()  # how each was found, likewise; empty with given labels
     described: bool = False  # whether the rocks have descriptors
     sized: bool = False  # whether they have sizes
+    flagged: bool = False  # whether the table tells their flags unasked
 
     @cached_property
     def labels(self) -> NDArray[np.int32]:
@@ -207,7 +208,12 @@ def columns(
     found = find_method(method)
     estimated = found.estimated if uncertainty else ()
     return _columns(
-        found.measures, descriptors=descriptors, flags=flags, sizes=sizes, estimated=estimated
+        found.measures,
+        descriptors=descriptors,
+        flagged=found.flags is not None,
+        flags=flags,
+        sizes=sizes,
+        estimated=estimated,
     )
 
 
@@ -215,6 +221,7 @@ def _columns(
     measures: tuple[Measure, ...],
     *,
     descriptors: bool,
+    flagged: bool,
     flags: bool,
     sizes: bool,
     estimated: tuple[str, ...],
@@ -223,8 +230,9 @@ def _columns(
     sized = SIZES if sizes else ()
     described = tuple(DESCRIPTORS.values()) if descriptors else ()
     spread = tuple(name for value in estimated for name in uncertainty_columns(value))
+    told = ("flags", "reason") if flagged else ("reason",)
     asked = dict.fromkeys((*spread, *sized, *described, *(FLAGS if flags else ())))
-    return (*PLACE, *POINTS, *AXES, *measured, "reason", *asked)
+    return (*PLACE, *POINTS, *AXES, *measured, *told, *(name for name in asked if name not in told))
 
 
 def to_frame(
@@ -234,9 +242,10 @@ def to_frame(
 
     row and col are the centroid of the rock's pixels; axis_a_m >= axis_b_m >= axis_c_m are
     half-axes in metres, by `paper` of the fitted ellipsoid, by `robust` of the smallest box round
-    the whole rock. A value that cannot be measured is NaN, and `reason` says why. With `flags`,
-    branch is `range`, `image` or `labels`, flags are separated by `; `, and outline_sd_px is
-    NaN where the outline is the border of the rock's pixels. With `uncertainty`, the columns
+    the whole rock. A value that cannot be measured is NaN, and `reason` says why; by `robust`
+    `flags`, separated by `; `, say what weakens the others. With `flags`, branch is `range`,
+    `image` or `labels`, and outline_sd_px is NaN where the outline is the border of the rock's
+    pixels; by `paper` the finder's flags are told then. With `uncertainty`, the columns
     `…_sd`, `…_low` and `…_high` of a value are its standard deviation and 90 % interval.
     """
     import pandas as pd  # noqa: PLC0415 - it takes as long as all else
@@ -244,6 +253,7 @@ def to_frame(
     names = _columns(
         measurement.measures,
         descriptors=measurement.described,
+        flagged=measurement.flagged,
         flags=flags,
         sizes=measurement.sized,
         estimated=find_method(measurement.method).estimated if uncertainty else (),
@@ -260,16 +270,16 @@ def to_frame(
 
 
 def _found(found: "FoundRock | None") -> dict[str, object]:
-    """How a rock was found, as the columns of FOUND."""
+    """How a rock was found: its branch, and how sure its outline is."""
     if found is None:
-        return dict(zip(FOUND, ("labels", "", np.nan), strict=True))
-    sd_px = np.nan if found.outline is None else found.outline.sd_px
-    return dict(zip(FOUND, (found.branch, "; ".join(found.flags), sd_px), strict=True))
+        return {"branch": "labels", "outline_sd_px": np.nan}
+    return {"branch": found.branch, "outline_sd_px": found.outline_sd_px}
 
 
 def _row(rock: Rock, found: dict[str, object]) -> dict[str, object]:
     """Everything that is known of a rock, by its column."""
     row: dict[str, object] = {"rock": rock.number, "reason": rock.reason}
+    row["flags"] = "; ".join(rock.flags)
     row |= {name: getattr(rock, name) for name in PLACE[1:]}
     row |= dataclasses.asdict(rock.points)
     row["outline_share"] = rock.outline_share

@@ -18,6 +18,7 @@ from rockshape.ellipsoid import Ellipsoid
 from rockshape.errors import unknown_name
 from rockshape.measures import Measure
 from rockshape.plugins.entry_points import load_records, with_entry_points
+from rockshape.rock.flags import KnownOfRock, view_flags
 from rockshape.rock.view import RockView
 from rockshape.segmentation.finders import FINDERS
 from rockshape.uncertainty import ErrorModel, read_error_model
@@ -54,6 +55,9 @@ class Method:
     fits: Callable[[RockView], Fits]
     measures: tuple[Measure, ...]  # in the order of the table
     errors: Callable[[], Mapping[str, ErrorModel]] | None = None  # by column; None: not estimated
+    flags: Callable[[RockView, KnownOfRock], tuple[str, ...]] | None = (
+        None  # None: the finder's alone
+    )
 
     @property
     def estimated(self) -> tuple[str, ...]:
@@ -106,6 +110,7 @@ ROBUST = Method(
     fits=_robust_fits,
     measures=measures.ROBUST,
     errors=read_error_model,
+    flags=view_flags,
 )
 BUILT_IN = (PAPER.name, ROBUST.name)
 

@@ -1,6 +1,7 @@
 """Measuring pipeline: from an observation to the readings of each rock in it."""
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,6 +17,7 @@ from rockshape.outline.descriptors import UNRESOLVED, Descriptors, describe_edge
 from rockshape.point_grid.flying import flying_pixels
 from rockshape.rock.blas_threads import one_blas_thread
 from rockshape.rock.contacts import not_ground
+from rockshape.rock.flags import KnownOfRock
 from rockshape.rock.instances import Instance, Instances, Window
 from rockshape.rock.point_fit import PointCounts
 from rockshape.rock.sizes import Sizes, pixel_on_rock_m, sizes_of
@@ -74,6 +76,7 @@ def measure(
         found=scene.found,
         described=descriptors,
         sized=sizes,
+        flagged=method.flags is not None,
     )
 
 
@@ -95,6 +98,11 @@ class _Scene:
     flying: NDArray[np.bool_] | None  # (rows, cols), points that no rock is measured on
     ground: "Ground | None" = None
     found: "tuple[FoundRock, ...]" = ()
+
+    @cached_property
+    def found_by_number(self) -> "dict[int, FoundRock]":
+        """How each rock was found; none where they were given."""
+        return {one.number: one for one in self.found}
 
 
 def _given(
@@ -208,7 +216,18 @@ def _rock(
         sizes=_sizes(view, descriptors, scene.observation) if asked.sizes else None,
         observables=_observables(view, method, readings, visible=visible),
     )
-    return _estimated(rock, method)
+    return _estimated(_flagged(rock, view, method, scene), method)
+
+
+def _flagged(rock: Rock, view: RockView, method: Method, scene: _Scene) -> Rock:
+    """Rock with the flags of its finder, and after them those that the method tells."""
+    found = scene.found_by_number.get(rock.number)
+    flags = () if found is None else found.flags
+    if method.flags is not None:
+        outline_sd_px = NAN if found is None else found.outline_sd_px
+        known = KnownOfRock(rock.visible_fraction, outline_sd_px, rock.values)
+        flags = (*flags, *method.flags(view, known))
+    return replace(rock, flags=tuple(dict.fromkeys(flags)))
 
 
 def _observables(

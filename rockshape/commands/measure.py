@@ -145,7 +145,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     how.add_argument(
         "--flags",
         action="store_true",
-        help="add columns on how each rock was found and what limits its view",
+        help="add columns on what found each rock and how sure its outline is",
     )
     how.add_argument(
         "--uncertainty",

@@ -181,16 +181,22 @@ class RockView:
         return self.point_fit.ellipsoid
 
     @cached_property
+    def visible_m(self) -> NDArray[np.float64]:
+        """Points (n, 3) of the visible surface, the range's noise reduced; none without range."""
+        if self.held_ellipsoid is None or self.grid_m is None:
+            return np.empty((0, 3))
+        return visible_surface(
+            self.held_ellipsoid, self.grid_m, self.point_fit.attached, self.noise
+        )
+
+    @cached_property
     def body_half_axes_m(self) -> NDArray[np.float64] | None:
         """Half-axes a >= b >= c, (3,), of the smallest box round the completed rock."""
         if self.held_ellipsoid is None or self.grid_m is None:
             return None
-        visible_m = visible_surface(
-            self.held_ellipsoid, self.grid_m, self.point_fit.attached, self.noise
-        )
         return box_half_axes_m(
             completed(
-                visible_m,
+                self.visible_m,
                 self.held_ellipsoid,
                 plane=None if self.ground is None else self.ground.plane,
                 seen_past=self._seen_past,

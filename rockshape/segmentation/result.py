@@ -24,6 +24,11 @@ class FoundRock:
     flags: tuple[str, ...] = ()  # of truncated, occluded, buried, small, shadowed
     outline: SnappedOutline | None = None  # at the image's edge; None: the border of its pixels
 
+    @property
+    def outline_sd_px(self) -> float:
+        """Standard deviation of its outline; NaN where that is the border of its pixels."""
+        return float("nan") if self.outline is None else self.outline.sd_px
+
 
 @dataclass(frozen=True, eq=False)
 class Segmentation:

@@ -64,6 +64,7 @@ COLUMNS: Mapping[str, TableColumn] = MappingProxyType(
                 )
                 for axis, which in (("a", "longest"), ("b", "intermediate"), ("c", "shortest"))
             ),
+            TableColumn("flags", "", "what weakens its values or its view lacks", "string"),
             TableColumn("reason", "", "why values are missing", "string"),
             *_lengths("px", ""),
             *_lengths("mm", _ON_ROCK),
@@ -82,7 +83,6 @@ COLUMNS: Mapping[str, TableColumn] = MappingProxyType(
             TableColumn("convexity", "", "the convex hull's perimeter over its own", may_lack=True),
             TableColumn("rectangularity", "", "area over the smallest rectangle's", may_lack=True),
             TableColumn("branch", "", "what found it: range, image or labels", "string"),
-            TableColumn("flags", "", "what its view lacks", "string"),
             TableColumn("outline_sd_px", "px", "standard deviation of its outline", may_lack=True),
             TableColumn(
                 "outline_share", "", "share of its edge that no neighbour made", may_lack=True

@@ -1,0 +1,98 @@
+"""Flags: what weakens the values of rocks whose weakness is known by how they were made."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import rockshape
+from rockshape.measurement import to_frame
+from rockshape.method import find_method
+from rockshape.observation import Observation
+from rockshape.rock.flags import KnownOfRock
+from rockshape.rock.instances import Instances
+from rockshape.rock.view import RockView
+from rockshape.segmentation.finders import Finder
+from rockshape.segmentation.result import FoundRock, Segmentation
+from tests import solids
+
+
+def flags_of(mask: np.ndarray, **given) -> tuple[str, ...]:
+    return rockshape.measure(labels=mask.astype(np.int32), **given)[0].flags
+
+
+@pytest.mark.parametrize(("radius_px", "expected"), [(12, ("small for roundness",)), (20, ())])
+def test_roundness_from_few_pixels_is_flagged(radius_px: int, expected: tuple[str, ...]) -> None:
+    assert flags_of(np.pad(solids.disc(radius_px), 5)) == expected
+
+
+def test_roundness_that_is_refused_is_not_flagged_as_small() -> None:
+    rock = rockshape.measure(labels=np.pad(solids.disc(4), 5).astype(np.int32))[0]
+    assert np.isnan(rock.roundness.value)
+    assert rock.flags == ()
+
+
+def test_a_rock_that_the_frame_cuts_is_truncated_and_hidden() -> None:
+    disc = np.pad(solids.disc(40), 5)
+    assert flags_of(disc[:, 45:]) == ("truncated", "hidden")
+    whole = disc[:, int(disc.any(axis=0).argmax()) :]
+    assert flags_of(whole) == ("truncated",)  # it touches the border alone
+
+
+@pytest.mark.parametrize(("first_col", "expected"), [(0, False), (180, True)])
+def test_an_axis_of_which_the_frame_cuts_most_is_extrapolated(
+    first_col: int, expected: bool
+) -> None:
+    whole = solids.CAMERA
+    range_m = solids.ellipsoid_range(
+        whole,
+        half_axes_m=np.array([0.3, 0.1, 0.1]),
+        axes=np.eye(3),
+        centre_m=np.array([0.0, 0.0, 2.0]),
+    )[:, first_col:]
+    camera = replace(whole, cx=whole.cx - first_col, width=whole.width - first_col)
+    labels = np.isfinite(range_m).all(axis=-1).astype(np.int32)
+    rock = rockshape.measure(range_m=range_m, camera=camera, labels=labels)[0]
+    assert ("extrapolated axis" in rock.flags) == expected
+
+
+def test_an_outline_unsure_by_a_share_of_its_forms_scale_is_soft() -> None:
+    view = RockView(mask=np.pad(solids.disc(50), 5))
+    tell = find_method("robust").flags
+    assert tell is not None
+    # the scale is 0.12 of the radius, 6 px
+    assert tell(view, KnownOfRock(1.0, 1.3, {})) == ()
+    assert tell(view, KnownOfRock(1.0, 1.7, {})) == ("soft outline",)
+    assert tell(view, KnownOfRock(1.0, float("nan"), {})) == ()
+
+
+def test_robust_tells_flags_unasked_and_paper_when_asked() -> None:
+    labels = np.pad(solids.disc(12), 5).astype(np.int32)
+    robust, paper = (rockshape.measure(labels=labels, method=name) for name in ("robust", "paper"))
+    table = to_frame(robust)
+    assert list(table)[-2:] == ["flags", "reason"]
+    assert table["flags"].tolist() == ["small for roundness"]
+    asked = list(to_frame(robust, flags=True))
+    assert asked == [*table, "branch", "outline_sd_px", "outline_share"]
+    assert "flags" not in to_frame(paper)
+    assert to_frame(paper, flags=True)["flags"].tolist() == [""]
+
+
+def test_flags_of_the_finder_come_first_and_once() -> None:
+    labels = solids.disc(12).astype(np.int32)
+    labels = labels[:, int((labels > 0).any(axis=0).argmax()) :]
+
+    def segment(_: Observation) -> Segmentation:
+        frame = slice(0, labels.shape[0]), slice(0, labels.shape[1])
+        found = FoundRock(1, "image", ("shadowed", "truncated"))
+        return Segmentation(Instances.from_labels(labels), None, frame, (found,))
+
+    find = Finder("own", "the disc", segment)
+    image = np.ones(labels.shape, dtype=np.float32)
+    assert rockshape.measure(image, find=find)[0].flags == ("shadowed", "truncated")
+    labels = labels[:, 12:]
+    assert rockshape.measure(image[:, 12:], find=find)[0].flags == (
+        "shadowed",
+        "truncated",
+        "hidden",
+    )

@@ -7,8 +7,10 @@ import argparse
 import importlib
 import sys
 from collections.abc import Mapping
+from concurrent.futures import Executor
+from contextlib import nullcontext
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any, TypedDict, get_args
 
 import msgspec
 
@@ -65,12 +67,25 @@ def add_scene_arguments(kinds: Any) -> None:
         help="also pictures and label files as YOLO reads them",
     )
     scene.add_argument(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="Dask scheduler in place of --jobs, tcp://host:8786; its workers write to OUT too",
+    )
+    scene.add_argument(
         "--plugin",
         metavar="MODULE",
         action="append",
         default=[],
         help="import a module that registers sensors or rock families",
     )
+
+
+class _How(TypedDict):
+    """How a dataset is made, which its bytes do not depend on."""
+
+    jobs: int
+    show_progress: bool
+    executor: Executor | None
 
 
 def run_scene(args: argparse.Namespace) -> int:
@@ -83,14 +98,18 @@ def run_scene(args: argparse.Namespace) -> int:
     """
     from synth.dataset.generate import generate_dataset  # noqa: PLC0415
     from synth.dataset.replay import replay_dataset  # noqa: PLC0415
+    from synth.handle.remote import cluster_executor  # noqa: PLC0415
 
     check_dataset_arguments(args, (*_SPEC_OPTIONS, *_DATASET_OPTIONS))
     for name in args.plugin:
         _import_plugin(name)
-    if args.replay is not None:
-        print(replay_dataset(args.replay, args.out, jobs=args.jobs, show_progress=True))
-        return 0
-    generate_dataset(_spec(args), args.out, jobs=args.jobs, show_progress=True)
+    spec = _spec(args) if args.replay is None else None
+    with nullcontext() if args.scheduler is None else cluster_executor(args.scheduler) as executor:
+        how = _How(jobs=args.jobs, show_progress=True, executor=executor)
+        if spec is None:
+            print(replay_dataset(args.replay, args.out, **how))
+        else:
+            generate_dataset(spec, args.out, **how)
     return 0
 
 

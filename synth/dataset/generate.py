@@ -5,7 +5,8 @@ import sys
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor, as_completed
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import suppress
+from contextlib import nullcontext, suppress
+from functools import partial
 from pathlib import Path
 
 from synth.dataset.common import identity, write_common
@@ -30,10 +31,12 @@ def generate_dataset(
     jobs: int = 1,
     show_progress: bool = False,
     backend: RendererName | None = None,
+    executor: Executor | None = None,
 ) -> None:
     """Dataset of a spec written into a folder; scenes that are complete already are kept.
 
-    `backend` takes the place of the spec's renderer, whose name the manifest keeps.
+    `backend` takes the place of the spec's renderer, whose name the manifest keeps. `executor`
+    takes the place of `jobs` processes: its calls run in fresh ones that see the folder too.
 
     The same spec gives the same bytes, whatever the number of processes and however often the run
     was interrupted. Rendering takes place in fresh processes, one scene at a time in each; where
@@ -57,7 +60,12 @@ def generate_dataset(
     with folder_lock(out):
         try:
             _generate(
-                spec, out, jobs=jobs, show_progress=show_progress, renderer=backend or spec.renderer
+                spec,
+                out.absolute(),
+                jobs=jobs,
+                show_progress=show_progress,
+                renderer=backend or spec.renderer,
+                executor=executor,
             )
         except (SpecError, MissingBackendError):
             if made and not any(out.iterdir()):
@@ -66,7 +74,13 @@ def generate_dataset(
 
 
 def _generate(
-    spec: SceneSpec, out: Path, *, jobs: int, show_progress: bool, renderer: RendererName
+    spec: SceneSpec,
+    out: Path,
+    *,
+    jobs: int,
+    show_progress: bool,
+    renderer: RendererName,
+    executor: Executor | None,
 ) -> None:
     fresh = all(path.name == PARTIAL for path in out.iterdir())
     backend = _claim(spec, out, renderer)
@@ -78,10 +92,13 @@ def _generate(
     ]
     if missing or not (out / "manifest.json").is_file():
         bar = ProgressBar(spec.scenes, len(missing), show=show_progress)
-        with worker_pool(min(jobs, max(len(missing), 1)), reports=bar.reports) as pool:
+        count = max(len(missing), 1)
+        here = partial(worker_pool, min(jobs, count), reports=bar.reports)
+        with here() if executor is None else nullcontext(executor) as pool:
             try:
-                within = max(1, jobs // max(len(missing), 1))
+                within = 1 if executor is not None else max(1, jobs // count)
                 for name in _rendered(pool, spec, missing, backend, out, jobs=within):
+                    _check_scene(spec, name, out)
                     bar.advance(name)
             except SpecError:
                 if fresh and not bar.advanced:
@@ -91,6 +108,14 @@ def _generate(
                 bar.close()
             write_common(spec, backend, out, pool)
     shutil.rmtree(out / PARTIAL, ignore_errors=True)
+
+
+def _check_scene(spec: SceneSpec, name: str, out: Path) -> None:
+    """Check that a scene that a worker has written is in this machine's folder too."""
+    if not (out / scene_path(spec, int(name))).is_dir():
+        raise SpecError(
+            f"{out}: expected a folder that all workers write to, found no scene {name} in it"
+        )
 
 
 def _sweep(out: Path) -> None:

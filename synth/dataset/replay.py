@@ -1,5 +1,6 @@
 """Dataset replay: generation from a manifest, with every file's hash compared."""
 
+from concurrent.futures import Executor
 from pathlib import Path
 from typing import Any
 
@@ -12,9 +13,16 @@ from synth.spec import SceneSpec, convert_spec
 
 
 def replay_dataset(
-    manifest_path: Path, out: Path, *, jobs: int = 1, show_progress: bool = False
+    manifest_path: Path,
+    out: Path,
+    *,
+    jobs: int = 1,
+    show_progress: bool = False,
+    executor: Executor | None = None,
 ) -> str:
     """Replay of a manifest's dataset in a folder; a line that says that the files are equal.
+
+    `executor` takes the place of `jobs` processes, as `generate_dataset` has it.
 
     Raises:
         SpecError: the manifest cannot be read, or `out` holds something else.
@@ -24,7 +32,9 @@ def replay_dataset(
     manifest = read_json(manifest_path)
     spec = _spec(manifest, manifest_path)
     backend, expected = manifest["backend"], manifest["files"]
-    generate_dataset(spec, out, jobs=jobs, show_progress=show_progress, backend=backend)
+    generate_dataset(
+        spec, out, jobs=jobs, show_progress=show_progress, backend=backend, executor=executor
+    )
     found = file_digests(out)
     differing = next(
         (name for name in sorted({*expected, *found}) if expected.get(name) != found.get(name)),

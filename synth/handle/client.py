@@ -6,7 +6,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import TypeVar, TypeVarTuple, cast
+from typing import Any, TypeVar, TypeVarTuple, cast
 
 from synth.dataset.workers import ONE_THREAD, registrations
 from synth.errors import RenderError
@@ -27,7 +27,20 @@ def call_in_worker(function: Callable[[*Ts], T], *arguments: *Ts, timeout_s: flo
         SpecError, MissingBackendError: as the function raises them.
         RenderError: the process failed, died or took longer than the timeout.
     """
-    request = pickle.dumps((registrations(), pickle.dumps((function, arguments))))
+    return cast(T, answer(request_of(function, *arguments), timeout_s))
+
+
+def request_of(function: Callable[[*Ts], Any], *arguments: *Ts) -> bytes:
+    """Call of a function as a worker process is asked for it, with what is registered here.
+
+    Raises:
+        SpecError: a registered record is in no module that the processes can import.
+    """
+    return pickle.dumps((registrations(), pickle.dumps((function, arguments))))
+
+
+def answer(request: bytes, timeout_s: float | None = None) -> Any:
+    """Value of a requested call, in a fresh process. Raises: as `call_in_worker`."""
     places = [place or str(Path.cwd()) for place in sys.path]
     try:
         done = subprocess.run(
@@ -52,4 +65,4 @@ def call_in_worker(function: Callable[[*Ts], T], *arguments: *Ts, timeout_s: flo
     value, failure = pickle.loads(done.stdout)
     if failure is not None:
         raise failure
-    return cast(T, value)
+    return value

@@ -1,17 +1,13 @@
 """A real Dask cluster on this machine: a scheduler and two workers, each a process of its own."""
 
-import re
-import subprocess
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
-from pathlib import Path
 
 import pandas as pd
 import pytest
 
 from rockshape.cli import main
 from rockshape.execution.executors import cluster, local
+from tests.dask_processes import dask_processes
 from validation.execution.dispatch import dispatch
 from validation.execution.store import UnitStore, unit_key
 from validation.execution.units import Unit
@@ -19,7 +15,6 @@ from validation.kinds.shapes.spec import ShapesExperiment
 
 pytest.importorskip("distributed", reason="the extra cluster is not installed")
 
-LOCAL = "127.0.0.1"
 DRAWINGS = ShapesExperiment(name="shapes", title="S", seed=10700, drawings=6)
 UNITS = [
     Unit(DRAWINGS, series, scene)
@@ -27,39 +22,6 @@ UNITS = [
     for scene in range(DRAWINGS.drawings)
 ]
 KEYED = [(unit_key(unit), unit) for unit in UNITS]
-
-
-@contextmanager
-def _process(*words: str) -> Iterator["subprocess.Popen[str]"]:
-    with subprocess.Popen(
-        [sys.executable, "-m", "distributed.cli.dask_" + words[0], *words[1:]],
-        stderr=subprocess.PIPE,
-        stdout=subprocess.DEVNULL,
-        text=True,
-    ) as process:
-        try:
-            yield process
-        finally:
-            process.kill()
-
-
-def _wait_for(process: "subprocess.Popen[str]", pattern: str) -> str:
-    assert process.stderr is not None
-    for line in process.stderr:
-        found = re.search(pattern, line)
-        if found:
-            return found[0]
-    raise AssertionError(f"{pattern}: the process ended before it said so")
-
-
-@contextmanager
-def _workers(address: str, folder: Path) -> Iterator["list[subprocess.Popen[str]]"]:
-    one = ("worker", address, "--no-nanny", "--no-dashboard", "--nthreads", "1")
-    options = (*one, "--host", LOCAL, "--local-directory", str(folder))
-    with _process(*options) as first, _process(*options) as second:
-        for worker in (first, second):
-            _wait_for(worker, r"Registered to")
-        yield [first, second]
 
 
 def _records(store: UnitStore) -> pd.DataFrame:
@@ -73,18 +35,16 @@ def test_a_worker_killed_in_mid_run_changes_nothing(tmp_path) -> None:
 
     disturbed = UnitStore(tmp_path / "disturbed", keep=False)
     done: list[str] = []
-    with _process("scheduler", "--host", LOCAL, "--port", "0", "--no-dashboard") as scheduler:
-        address = _wait_for(scheduler, rf"tcp://{LOCAL}:\d+")
-        with _workers(address, tmp_path) as workers, cluster(address) as executor:
+    with dask_processes(tmp_path) as (address, workers), cluster(address) as executor:
 
-            def kill_the_first(unit) -> None:
-                done.append(unit)
-                if len(done) == 2:
-                    workers[0].kill()
+        def kill_the_first(unit) -> None:
+            done.append(unit)
+            if len(done) == 2:
+                workers[0].kill()
 
-            dispatch(KEYED, executor, disturbed, kill_the_first)
-            assert workers[0].wait(10) != 0
-            assert workers[1].poll() is None
+        dispatch(KEYED, executor, disturbed, kill_the_first)
+        assert workers[0].wait(10) != 0
+        assert workers[1].poll() is None
     assert len(done) == len(UNITS)
     pd.testing.assert_frame_equal(_records(calm), _records(disturbed), check_exact=True)
 

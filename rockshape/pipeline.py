@@ -31,8 +31,6 @@ if TYPE_CHECKING:
     from rockshape.ground import Ground
     from rockshape.segmentation import FoundRock
 
-DEPARTURE = "ellipsoid_error"  # measure of how far a surface is from its ellipsoid
-
 
 def measure(
     observation: Observation,
@@ -239,8 +237,8 @@ def _observables(
     """
     if method.errors is None or view.truncated:
         return None
-    departure = readings.get(DEPARTURE, Reading(NAN))
-    return observe(view, visible_fraction=visible, departure=departure.value)
+    values = {name: reading.value for name, reading in readings.items()}
+    return observe(view, values, visible_fraction=visible)
 
 
 def _estimated(rock: Rock, method: Method) -> Rock:

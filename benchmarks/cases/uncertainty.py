@@ -22,9 +22,9 @@ SCANS = tuple(
     sorted(str(each) for each in (Path(__file__).parents[2] / "examples" / "rocks").glob("*.ply"))
 )
 SETS = (
-    PairSet("families taught", 10_000, 16, TAUGHT),
-    PairSet("families held out", 10_100, 16, HELD_OUT),
-    PairSet("scans", 10_200, 16, ("scan",), SCANS),
+    PairSet("families taught", 10_000, 24, TAUGHT),
+    PairSet("families held out", 10_100, 24, HELD_OUT),
+    PairSet("scans", 10_200, 24, ("scan",), SCANS),
 )
 STRATA: Mapping[str, Sequence[tuple[str, str, float, float]]] = {
     "width": (

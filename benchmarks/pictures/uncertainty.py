@@ -39,9 +39,9 @@ def draw(folder: Path) -> None:
         xlim=(0, 1),
         ylim=(0, 1),
     )
-    for axis in (left, right):
+    for axis, corner in ((left, "lower left"), (right, "lower right")):
         axis.grid(visible=True, alpha=0.25)
-        axis.legend(fontsize="small", loc="lower right")
+        axis.legend(fontsize="small", loc=corner)
     figure.savefig(folder / "uncertainty.png", dpi=100)
     plt.close(figure)
 

@@ -4,12 +4,17 @@ import argparse
 import json
 from pathlib import Path
 
+import pandas as pd
+
 from training.uncertainty.fit import as_json, fit_models
 from training.uncertainty.pairs import TAUGHT
 from training.uncertainty.table import PairSet, pair_table
 
-FITTED = PairSet("fitted", 1, 60, TAUGHT)
-CALIBRATED = PairSet("calibrated", 500, 60, TAUGHT)
+FITTED = (
+    PairSet("fresh", 1, 60, TAUGHT),
+    PairSet("more", 500, 30, TAUGHT),
+    PairSet("worn", 2, 15, TAUGHT, worn=(0.2, 1.0)),
+)
 
 
 def main() -> None:
@@ -18,7 +23,8 @@ def main() -> None:
     parser.add_argument("file", type=Path, help="error_model.json to write")
     parser.add_argument("--jobs", type=int, default=2, help="processes (%(default)s)")
     said = parser.parse_args()
-    models = fit_models(*(pair_table(one, jobs=said.jobs) for one in (FITTED, CALIBRATED)))
+    pairs = pd.concat([pair_table(one, jobs=said.jobs) for one in FITTED], ignore_index=True)
+    models = fit_models(pairs)
     said.file.write_text(json.dumps(as_json(models), indent=1) + "\n", encoding="utf-8")
     print(f"written: {said.file}, {len(models)} models")
 

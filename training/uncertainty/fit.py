@@ -1,9 +1,11 @@
-"""Fit of error models: a scale by the observables, then quantiles on rocks of other seeds."""
+"""Fit of error models: middle and scale by the observables, quantiles on families left out."""
 
 from collections.abc import Mapping
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from rockshape.measurement import AXES
@@ -13,36 +15,54 @@ from rockshape.uncertainty.observables import NAMES
 from training.uncertainty.table import observables_of
 
 FEWEST = 100  # errors, below which a value gets no model
+OUTER = 0.02  # quantile at which features are held
 _RIDGE = 1e-3
-_LEAST = 1e-6  # error
+_ROUND = 0.05  # of the scale, within which an error's loss is round
+_ROUNDS = 200
 
 
-def fit_models(fitted: pd.DataFrame, calibrated: pd.DataFrame) -> dict[str, ErrorModel]:
+class Solution(NamedTuple):
+    """Middle and scale of errors by features, and the ends within which features are held."""
+
+    coefficients: Floats
+    shift: Floats
+    least: Floats
+    most: Floats
+
+    def over(self, error: Floats, features: Floats) -> Floats:
+        """Errors (n,) less their middle, over their scale."""
+        held = np.clip(features, self.least, self.most)
+        return np.asarray((error - held @ self.shift) / np.exp(held @ self.coefficients))
+
+
+def fit_models(pairs: pd.DataFrame) -> dict[str, ErrorModel]:
     """Error model of each value that has errors enough.
 
-    The scale is that of a Laplace distribution of greatest likelihood on the first table; the
-    interval's ends are conformal quantiles of the second table's errors over that scale, so that
-    they cover what the scale does not explain.
+    Middle and scale are those of a Laplace distribution of greatest likelihood on all rows. The
+    interval's ends are quantiles of errors over the scale, each row's fitted to the other
+    families: they cover what the fit does not explain of a family that it has not seen.
+    Source: Dunn, Wasserman and Ramdas (2023), Distribution-free prediction sets for two-layer
+    hierarchical models.
     """
     models = {}
-    for name in value_names(fitted):
+    for name in value_names(pairs):
         relative = name in AXES
-        error, features = errors(fitted, name, relative=relative)
+        error, features, family = errors(pairs, name, relative=relative)
         if len(error) < FEWEST:
             continue
-        coefficients = _fit_scale(error, features)
-        error, features = errors(calibrated, name, relative=relative)
-        if len(error) < FEWEST:
-            continue
-        over = np.sort(error / np.exp(features @ coefficients))
+        solution = _fit(error, features)
+        over = np.sort(_left_out(error, features, family))
         tail = (1 - COVERAGE) / 2
         rank = max(int(np.floor((len(over) + 1) * tail)), 1)
         inner = over[np.abs(over) <= np.quantile(np.abs(over), 0.98)]
         models[name] = ErrorModel(
-            coefficients=tuple(coefficients.round(4).tolist()),
-            low=round(float(over[rank - 1]), 4),
-            high=round(float(over[-rank]), 4),
-            sd=round(float(np.sqrt(np.mean(inner**2))), 4),
+            coefficients=_numbers(solution.coefficients),
+            shift=_numbers(solution.shift),
+            least=_numbers(solution.least),
+            most=_numbers(solution.most),
+            low=_short(over[rank - 1]),
+            high=_short(over[-rank]),
+            sd=_short(np.sqrt(np.mean(inner**2))),
             relative=relative,
         )
     return models
@@ -53,13 +73,15 @@ def value_names(table: pd.DataFrame) -> list[str]:
     return [name.removeprefix("value_") for name in map(str, table) if name.startswith("value_")]
 
 
-def errors(table: pd.DataFrame, name: str, *, relative: bool) -> tuple[Floats, Floats]:
-    """Errors (n,) of a value where both it and its truth are known, and features (n, k)."""
+def errors(
+    table: pd.DataFrame, name: str, *, relative: bool
+) -> tuple[Floats, Floats, NDArray[np.object_]]:
+    """Errors (n,) of a value where both it and its truth are known, features (n, k), families."""
     value, truth = table[f"value_{name}"].to_numpy(), table[f"truth_{name}"].to_numpy()
     known = np.isfinite(value) & np.isfinite(truth)
     value, truth = value[known], truth[known]
     error = np.log(value / truth) if relative else value - truth
-    return error, features_of(table[known])
+    return error, features_of(table[known]), table["family"].to_numpy(dtype=object)[known]
 
 
 def features_of(table: pd.DataFrame) -> Floats:
@@ -68,19 +90,53 @@ def features_of(table: pd.DataFrame) -> Floats:
     return np.array(rows).reshape(-1, len(NAMES))
 
 
-def _fit_scale(error: Floats, features: Floats) -> Floats:
-    size = np.maximum(np.abs(error), _LEAST)
+def _left_out(error: Floats, features: Floats, family: NDArray[np.object_]) -> Floats:
+    """Errors (n,) over their scale, each by the fit to all other families."""
+    over = np.empty_like(error)
+    for own in np.unique(family):
+        left = family == own
+        over[left] = _fit(error[~left], features[~left]).over(error[left], features[left])
+    return over
+
+
+def _fit(error: Floats, features: Floats) -> Solution:
+    """Middle and scale of greatest likelihood, each drawn a little towards one for all rocks."""
+    least, most = np.quantile(features, [OUTER, 1 - OUTER], axis=0)
+    held = np.clip(features, least, most)
+    mean, spread = held.mean(axis=0), held.std(axis=0)
+    mean[0], spread[spread == 0] = 0.0, 1.0
+    even = (held - mean) / spread
+    size = max(float(np.median(np.abs(error))), 1e-9)
+    count = features.shape[1]
 
     def cost(solution: Floats) -> tuple[float, Floats]:
-        level = features @ solution
-        over = size * np.exp(-level)
-        slope = (1 - over) @ features / len(size)
-        pull = _RIDGE * np.concatenate([[0.0], solution[1:]])
-        return float(np.mean(level + over) + pull @ solution / 2), slope + pull
+        level, middle = even @ solution[:count], even @ solution[count:]
+        over = (error / size - middle) * np.exp(-level)
+        loss = np.hypot(over, _ROUND)
+        slope = over / loss
+        pull = _RIDGE * solution
+        pull[0] = 0.0
+        by_level = (1 - slope * over) @ even / len(error)
+        by_middle = -(slope * np.exp(-level)) @ even / len(error)
+        value = np.mean(level + loss) + pull @ solution / 2
+        return float(value), np.concatenate([by_level, by_middle]) + pull
 
-    start = np.zeros(features.shape[1])
-    start[0] = np.log(size.mean())
-    return np.asarray(minimize(cost, start, jac=True, method="L-BFGS-B").x)
+    found = minimize(
+        cost, np.zeros(2 * count), jac=True, method="L-BFGS-B", options={"maxiter": _ROUNDS}
+    ).x
+    coefficients, shift = found[:count] / spread, size * found[count:] / spread
+    coefficients[0] += np.log(size) - coefficients[1:] @ mean[1:]
+    shift[0] -= shift[1:] @ mean[1:]
+    return Solution(coefficients, shift, least, most)
+
+
+def _numbers(every: Floats) -> tuple[float, ...]:
+    return tuple(map(_short, every.tolist()))
+
+
+def _short(number: float) -> float:
+    """Number of five digits, as the file has them."""
+    return float(f"{number:.5g}")
 
 
 def as_json(models: Mapping[str, ErrorModel]) -> dict[str, object]:

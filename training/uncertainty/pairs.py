@@ -64,16 +64,22 @@ class Pair:
 
 
 def made_pairs(
-    seed: int, scenes: Iterable[int], families: Sequence[str], *, scans: Sequence[str] = ()
+    seed: int,
+    scenes: Iterable[int],
+    families: Sequence[str],
+    *,
+    scans: Sequence[str] = (),
+    worn: tuple[float, float] | None = None,
 ) -> Iterator[Pair]:
     """Yield the rocks of scenes of a seed, each from two sides and with each noise.
 
     What is measured by a fine camera from the same place, on exact range, stands for the truth
     where a quantity has none of its own, and for that of an outline which the ground cuts.
+    worn is the range of the abrasion that wears the rocks.
     """
     for scene in scenes:
         rng = np.random.default_rng([seed, 90, scene])
-        spec, camera = _spec(rng, seed * 1000 + scene, families, scans)
+        spec, camera = _spec(rng, seed * 1000 + scene, families, scans, worn)
         try:
             yield from _pairs(scene, spec, camera)
         except SpecError:  # no room for the rocks
@@ -81,7 +87,11 @@ def made_pairs(
 
 
 def _spec(
-    rng: np.random.Generator, seed: int, families: Sequence[str], scans: Sequence[str]
+    rng: np.random.Generator,
+    seed: int,
+    families: Sequence[str],
+    scans: Sequence[str],
+    worn: tuple[float, float] | None,
 ) -> tuple[SceneSpec, str]:
     """Scene as the fine camera sees it, and the coarse camera."""
     distance_m = float(np.exp(rng.uniform(np.log(1.5), np.log(7.0))))
@@ -95,6 +105,8 @@ def _spec(
     }
     if scans:
         rocks |= {"family": "scan", "scans": list(scans)}
+    if worn is not None:
+        rocks["abrasion"] = list(worn)
     burial = [0.0, 0.4] if rng.uniform() < 0.3 else [0.0, 0.0]
     table = {
         "seed": seed,

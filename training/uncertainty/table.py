@@ -15,13 +15,14 @@ from training.uncertainty.pairs import made_pairs
 
 @dataclass(frozen=True)
 class PairSet:
-    """Scenes to be made: their seed, number and families, or scans in their place."""
+    """Scenes to be made: their seed, number and families, or scans in their place, and wear."""
 
     name: str
     seed: int
     scenes: int
     families: Sequence[str]
     scans: Sequence[str] = ()
+    worn: tuple[float, float] | None = None  # range of abrasion
 
 
 def pair_table(wanted: PairSet, *, jobs: int = 1) -> pd.DataFrame:
@@ -41,7 +42,8 @@ def observables_of(table: pd.DataFrame) -> list[Observables]:
 
 def _rows(wanted: PairSet, scenes: Iterable[int]) -> list[dict[str, Any]]:
     rows: list[dict[str, Any]] = []
-    for pair in made_pairs(wanted.seed, scenes, wanted.families, scans=wanted.scans):
+    made = made_pairs(wanted.seed, scenes, wanted.families, scans=wanted.scans, worn=wanted.worn)
+    for pair in made:
         row = dataclasses.asdict(pair)
         for kind, name in (("values", "value"), ("truths", "truth"), ("observables", "seen")):
             row |= {f"{name}_{key}": value for key, value in row.pop(kind).items()}

@@ -18,24 +18,27 @@ def drawn(seed: int, rocks: int) -> pd.DataFrame:
     error = (rng.gamma(2.0, 1.0, rocks) - 1.5) * 0.02 * 64 / width
     return pd.DataFrame(
         {
+            "family": np.resize(["cube", "ball", "slab"], rocks),
             "value_roundness": truth + error,
             "truth_roundness": truth,
             "seen_width_px": width,
             "seen_noise": 0.0,
             "seen_hidden": 0.0,
             "seen_departure": 0.05,
+            "seen_outline": 0.05,
+            "seen_corners": 0.15,
         }
     )
 
 
 @pytest.fixture(scope="module")
 def model():
-    return fit_models(drawn(1, 2000), drawn(2, 2000))["roundness"]
+    return fit_models(drawn(1, 3000))["roundness"]
 
 
 def test_the_scale_falls_with_the_width_as_it_was_drawn(model) -> None:
     def scale(width_px: float) -> float:
-        return model.scale(Observables(width_px, 0.0, 0.0, 0.05))
+        return model.middle_and_scale(Observables(width_px, 0.0, 0.0, 0.05))[1]
 
     assert scale(32) / scale(128) == pytest.approx(4.0, rel=0.15)
 
@@ -55,19 +58,44 @@ def test_nine_of_ten_true_values_lie_within(model, width_px: tuple[int, int]) ->
     assert misses["low"] / len(table) == pytest.approx(0.05, abs=0.02)
 
 
+def test_ends_cover_a_family_whose_errors_no_other_tells() -> None:
+    """One family of four is measured too high, which nothing else of its rocks tells."""
+    table = drawn(4, 4000)
+    odd = np.arange(4000) % 4 == 0
+    table["family"] = np.where(odd, "odd", table["family"])
+    table.loc[odd, "value_roundness"] += 0.2
+    one = fit_models(table)["roundness"]
+    middle = Observables(64.0, 0.0, 0.0, 0.05, 0.05, 0.15)
+    low, high = one.interval(0.5, middle)
+    assert low < 0.5 - 0.2  # where the odd family's truth lies
+    plain = fit_models(drawn(4, 4000))["roundness"].interval(0.5, middle)
+    assert high - low > 2 * (plain[1] - plain[0])
+
+
+def test_a_middle_that_the_rocks_tell_is_taken_off() -> None:
+    """Errors that grow with the corners shift the interval, and do not widen it."""
+    rng = np.random.default_rng(50)
+    table = drawn(5, 3000).assign(seen_corners=rng.uniform(0.0, 0.4, 3000))
+    table["value_roundness"] += table["seen_corners"]
+    one = fit_models(table)["roundness"]
+    for corners in (0.05, 0.35):
+        middle, scale = one.middle_and_scale(Observables(64.0, 0.0, 0.0, 0.05, 0.05, corners))
+        assert middle + scale * (one.low + one.high) / 2 == pytest.approx(corners, abs=0.05)
+
+
 def test_too_few_errors_make_no_model() -> None:
-    assert fit_models(drawn(1, 50), drawn(2, 2000)) == {}
+    assert fit_models(drawn(1, 50)) == {}
     assert as_json({})["models"] == {}
 
 
 def test_observables_are_read_back_as_they_were_written() -> None:
     seen = observables_of(drawn(1, 3))
-    assert seen[2] == Observables(drawn(1, 3)["seen_width_px"][2], 0.0, 0.0, 0.05)
+    assert seen[2] == Observables(drawn(1, 3)["seen_width_px"][2], 0.0, 0.0, 0.05, 0.05, 0.15)
 
 
 def test_errors_of_axes_are_of_their_logarithms() -> None:
     table = drawn(1, 3).rename(columns=lambda name: name.replace("roundness", "axis_a_m"))
-    error, _ = errors(table, "axis_a_m", relative=True)
+    error, _, _ = errors(table, "axis_a_m", relative=True)
     expected = np.log(table["value_axis_a_m"] / table["truth_axis_a_m"])
     assert error == pytest.approx(expected.to_numpy())
 

@@ -16,7 +16,7 @@ def meaning(measure: Measure) -> str:
     found = _MEANING.search(module.__doc__ or "") if module is not None else None
     if found is None:
         return f"{measure.title}."
-    text = " ".join(found[1].split())
+    text = " ".join(found[1].replace("`", "").split())
     text = text if len(text) < LONGEST else _first(text)
     return text[0].upper() + text[1:]
 

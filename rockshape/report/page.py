@@ -31,8 +31,10 @@ _AT_FIRST = (
     "minor_axis_px",
     "area_px",
     "axis_a_m",
+    "flags",
     "reason",
 )  # columns shown
+_IN_PIXELS = {"minor_axis_px", "area_px"}  # not where sizes are known in mm
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +75,8 @@ def page_parts(content: PageContent) -> Iterator[str]:
     """Yield the HTML of a page piece by piece."""
     columns = described(content.columns, content.measures)
     first = {*_AT_FIRST, *(measure.column for measure in content.measures)}
+    if "minor_axis_mm" in content.filled:
+        first -= _IN_PIXELS
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
     environment.filters["number"] = _number
     folder = files("rockshape.report")

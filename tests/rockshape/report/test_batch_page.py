@@ -48,6 +48,8 @@ def test_every_image_has_its_picture_and_every_rock_its_row() -> None:
     assert sorted(drawn) == re.findall(r'<tr id="row-(.+?)"', page)
     assert len(set(drawn)) == 9
     assert page.count("data:image/jpeg") == 3
+    assert re.search(r'data-column="flags" checked', page)
+    assert "`" not in re.sub(r"<(style|script).*?</\1>", "", page, flags=re.DOTALL)
     assert re.search(r"""(src|[^:]href)=["']?http""", page) is None
     assert not Path("t.csv.parts").exists()
 
@@ -104,4 +106,10 @@ def test_a_row_makes_its_picture_large(tmp_path: Path) -> None:
         browser.run("document.querySelector('figure.open button').click()")
         assert browser.run(f"{open_}.length") == 0
         assert browser.complaints == []
-        assert browser.run("document.documentElement.scrollWidth <= innerWidth")
+        table = "document.getElementById('rocks')"
+        assert browser.run(f"{table}.offsetWidth <= {table}.parentElement.clientWidth")
+        fits = "document.documentElement.scrollWidth <= innerWidth"
+        assert browser.run(fits)
+        browser.open((tmp_path / "p.html").as_uri(), width=760)
+        browser.call("Emulation.setEmulatedMedia", media="print")
+        assert browser.run(f"{fits} && {table}.offsetWidth <= innerWidth")

@@ -18,6 +18,7 @@ MINUTES = 10
 def examples(tmp_path) -> Path:
     for name in ("notebook.ipynb", "first_suite.toml"):
         shutil.copy(ROOT / "examples" / name, tmp_path)
+    shutil.copytree(ROOT / "examples" / "grains", tmp_path / "grains")
     return tmp_path
 
 
@@ -54,6 +55,7 @@ def test_the_notebook_runs_and_shows_tables_and_a_picture(examples, renderer):
     for line in ("view.truth", "found", "validation.score(found, view)", "run.gates"):
         assert "text/html" in shown[line], line
     assert "image/png" in shown["found.plot();"]
+    assert "text/plain" in shown["grains.summary()"]
     assert notebook.cells[-1].outputs[0].data["text/plain"] == "True"
 
 

@@ -15,7 +15,7 @@ from rockshape.report.section import Section, SectionOrder
 from rockshape.report.verdict import joined
 from rockshape.samples.size_column import DEFAULTS
 
-MAX_PICTURES = 200
+MAX_PICTURES = 100
 MAX_ROWS = 5000  # of the page's table, but for those of the first image
 MIN_SIDE_PX = 160  # of a picture
 

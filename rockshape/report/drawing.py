@@ -15,7 +15,8 @@ from rockshape.measurement import Measurement, Rock
 from rockshape.observation import Observation
 
 MOST_PX = 1600  # longer side of the picture that is embedded
-_STRAY_PX = 0.25  # of the picture, by which a drawn outline may leave the measured one
+_STRAY_PX = 0.25  # of the image, by which a drawn outline may leave the measured one
+_REDUCED_STRAY_PX = 0.5  # of the picture, where that is more
 _NICE = (1, 2, 5)
 _NUMBER_SHARE = 0.03  # of the picture's longer side, at most
 _BAR_SHARE = 0.3  # of the picture's width, at most
@@ -46,6 +47,7 @@ def drawing(measurement: Measurement, *, prefix: str = "", most_px: int = MOST_P
     import jinja2  # noqa: PLC0415 - for pages and SVG alone
 
     rows, cols = measurement.instances.shape
+    stray_px = _REDUCED_STRAY_PX * max(rows, cols) / most_px
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
     environment.filters["short"] = lambda value: f"{value:.1f}"
     template = (files("rockshape.report") / "drawing.svg").read_text(encoding="utf-8")
@@ -54,7 +56,7 @@ def drawing(measurement: Measurement, *, prefix: str = "", most_px: int = MOST_P
         cols=cols,
         prefix=prefix,
         picture=picture_uri(measurement.observation, most_px=most_px),
-        drawn=drawn_rocks(measurement, stray_px=_STRAY_PX * max(1.0, max(rows, cols) / most_px)),
+        drawn=drawn_rocks(measurement, stray_px=max(_STRAY_PX, stray_px)),
         bar=scale_bar(measurement),
     )
 

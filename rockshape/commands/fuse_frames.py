@@ -7,6 +7,7 @@ from typing import Literal
 
 import numpy as np
 
+from rockshape.commands.counted import counted
 from rockshape.errors import InputError
 from rockshape.fusion.frames import Frame, read_frames
 from rockshape.fusion.fusion import Fusion, fuse
@@ -95,7 +96,8 @@ def _masked(frame: Frame) -> Instances | None:
 def summary(fusion: Fusion) -> str:
     """Line that tells how many rocks several views have, and how far poses moved."""
     several = sum(len(rock.sights) > 1 for rock in fusion.rocks)
-    told = [f"{len(fusion.rocks)} rocks in {len(fusion.views)} views, {several} in several"]
+    rocks, views = counted(len(fusion.rocks), "rock"), counted(len(fusion.views), "view")
+    told = [f"{rocks} in {views}, {several} in several"]
     if fusion.alignment is not None:
         turn, shift = max(fusion.alignment.turned_deg), max(fusion.alignment.shifted_m)
         told.append(f"poses moved by up to {turn:.2f}° and {100 * shift:.1f} cm")

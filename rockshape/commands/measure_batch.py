@@ -15,6 +15,7 @@ from rockshape.batch.joining import check_joinable, write_joined
 from rockshape.batch.pairing import Companion, paired
 from rockshape.batch.parts import ResultFolder, key_of
 from rockshape.batch.run import ImageResult, Task, run_batch
+from rockshape.commands.counted import counted
 from rockshape.commands.measure_batch_report import section_order, write_batch_report
 from rockshape.commands.measure_image import PAGES, about_table, measure_files
 from rockshape.commands.measure_options import MeasureOptions
@@ -76,7 +77,9 @@ def measure_batch(given: Sequence[str], options: MeasureOptions, batch: BatchOpt
 
         def done(task: Task, outcome: ImageResult) -> None:
             if bar is not None:
-                bar.advance(f"{task.image.name}: {outcome.failure or f'{outcome.rocks} rocks'}")
+                bar.advance(
+                    f"{task.image.name}: {outcome.failure or counted(outcome.rocks, 'rock')}"
+                )
 
         failures |= run_batch(tasks, executor, parts, done)
     keys = [task.key for task in tasks if parts.has(task.key)]
@@ -167,19 +170,19 @@ def measured(options: MeasureOptions, order: SectionOrder | None = None) -> Imag
 
 def _tell_pairs(images: int, companions: dict[str, Companion], failures: dict[Path, str]) -> None:
     rules = [each.rule() for each in companions.values()]
-    told = "; ".join([f"{images} images", *rules])
+    told = "; ".join([counted(images, "image"), *rules])
     lacking = f"; {len(failures)} without: {_some(failures)}" if failures else ""
     print(told + lacking, file=sys.stderr)
 
 
 def _tell_end(images: int, there: int, rocks: int) -> None:
     before = f" ({there} of them before)" if there else ""
-    print(f"{images} images measured{before}; {rocks} rocks", file=sys.stderr)
+    print(f"{counted(images, 'image')} measured{before}; {counted(rocks, 'rock')}", file=sys.stderr)
 
 
 def _tell_failures(failures: dict[Path, str]) -> None:
     if failures:
-        print(f"{len(failures)} images failed:", file=sys.stderr)
+        print(f"{counted(len(failures), 'image')} failed:", file=sys.stderr)
         for told in failures.values():
             print(f"  {told}", file=sys.stderr)
 

@@ -4,6 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
+from rockshape.commands.counted import counted
 from rockshape.commands.parser import examples
 
 HELP = "order rocks by a value, with the probability of each order"
@@ -56,5 +57,8 @@ def run(args: argparse.Namespace) -> int:
     else:
         print(ranked.to_csv(index=False, float_format="%.4g"), end="")
     if lacking:
-        print(f"{lacking} rocks without {args.by} or its uncertainty left out", file=sys.stderr)
+        print(
+            f"{counted(lacking, 'rock')} without {args.by} or its uncertainty left out",
+            file=sys.stderr,
+        )
     return 0

@@ -61,7 +61,7 @@ def test_a_folder_becomes_one_table_and_a_bad_file_stops_nothing(folder, capsys)
 def test_quiet_tells_what_failed_and_nothing_else(capsys) -> None:
     assert run("photos", "--labels", "masks", "--out", "t.csv", "--jobs", 1, "--quiet") == 0
     told = capsys.readouterr().err.splitlines()
-    assert told[0] == "1 images failed:"
+    assert told[0] == "1 image failed:"
     assert len(told) == 2
     assert run("photos/p0.png", "--labels", "masks/p0_mask.png", "--quiet", "--json") == 0
     printed = capsys.readouterr()

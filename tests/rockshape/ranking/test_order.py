@@ -75,7 +75,7 @@ def test_the_command_takes_several_tables_and_names_them(tmp_path, capsys) -> No
     assert main(["rank", *files, "--by", "roundness", "--top", "2", "--json"]) == 0
     out, told = capsys.readouterr()
     assert [(row["table"], row["rock"]) for row in json.loads(out)] == [("a.csv", 2), ("b.csv", 1)]
-    assert told == "1 rocks without roundness or its uncertainty left out\n"
+    assert told == "1 rock without roundness or its uncertainty left out\n"
 
 
 def test_a_measured_image_is_ranked(tmp_path, capsys) -> None:

@@ -10,5 +10,5 @@ from validation.peers.declare import expected_trait
 @expected_trait(roundness="roundness", sphericity="form")
 def measure(mask: NDArray[np.bool_]) -> dict[str, float]:
     """Approximate roundness and sphericity of a mask, with the package's defaults."""
-    roundness, sphericity, _ = rs.rs_calculate(mask)
+    roundness, sphericity, _ = rs.rs_calculate(mask.copy())  # it wants an array that may be written
     return {"roundness": roundness[0], "sphericity": sphericity[0]}

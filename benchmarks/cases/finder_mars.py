@@ -7,68 +7,39 @@ from pathlib import Path
 
 import cv2
 import numpy as np
-from case import Case, Column, Table
+from case import Case, Table
+from finder_ways import RULE, KnownFrame, ways_table
 
 import rockshape
-from rockshape.observation import Observation, locate_camera
-from rockshape.segmentation.finders import find_finder
-from validation.records.object_matching import (
-    Rule,
-    equivalent_diameter,
-    judge,
-    whole_and_wide,
-)
-from validation.scores.object_scores import count, f1, precision, recall
+from rockshape.observation import locate_camera
+from validation.records.object_matching import whole_and_wide
 
 MARS = Path(__file__).parents[2] / "examples" / "mars"
 PHOTOS = MARS.parent / "photos"
 FRAMES = ("i924795", "i925510", "i925814", "i944537", "i944014r")
-WAYS = (("image", False), ("network", False), ("range", True), ("both", True))
-RULE = Rule(0.5, 12.0, equivalent_diameter)
 
 
 def scores(*, frames: tuple[str, ...] = FRAMES) -> list[Table]:
     """Score every finder on all frames together; rocks that the frame cuts do not count."""
-    status: dict[tuple[str, bool], list[np.ndarray]] = {way: [] for way in WAYS}
     with tempfile.TemporaryDirectory() as folder:
-        for frame, seen, alone, truth, counts in _frames(frames, Path(folder)):
-            for name, ranged in WAYS:
-                found = find_finder(name).segment(seen if ranged else alone).labels
-                rows = judge(truth, counts, found, {}, RULE)
-                status[name, ranged].append(rows["status"].to_numpy())
-            print(frame, flush=True)
-    rows = []
-    for (name, ranged), parts in status.items():
-        every = np.concatenate(parts)
-        counted = count(every, np.ones((1, len(every))))
-        told = [float(score(counted)[0]) for score in (f1, precision, recall)]
-        rows.append((name, "coarse mesh" if ranged else "none", *told))
-    columns = (
-        Column("finder"),
-        Column("range"),
-        *(Column(name, "", ".2f") for name in ("F1", "precision", "recall")),
-    )
-    return [Table(columns, rows)]
+        return [ways_table(_frames(frames, Path(folder)), "coarse mesh")]
 
 
-def _frames(
-    frames: tuple[str, ...], folder: Path
-) -> Iterator[tuple[str, Observation, Observation, np.ndarray, np.ndarray]]:
-    """Yield each frame with range and without, its labels, and which of them count."""
+def _frames(frames: tuple[str, ...], folder: Path) -> Iterator[KnownFrame]:
+    """Yield each frame with range, its labels, and which of them count."""
     for frame in frames:
         image, range_file = _at_full_size(frame, folder)
         outlines = MARS / "outlines" / f"{frame}.json"
-        alone = rockshape.read(image)
         seen = locate_camera(rockshape.read(image, range=range_file))
         marked = rockshape.read(image, labels=outlines).instances
-        truth = np.zeros(alone.image.shape, dtype=np.int32)
+        truth = np.zeros(seen.image.shape, dtype=np.int32)
         for number, rock in enumerate(marked, start=1):
             truth[rock.window][rock.mask] = number
         counts = np.zeros(len(marked) + 2, dtype=bool)
         whole = whole_and_wide(truth, RULE.min_width_px)
         counts[: len(whole)] = whole
         truth[_not_judged(outlines, f"{frame}.png", truth.shape) & (truth == 0)] = len(marked) + 1
-        yield frame, seen, alone, truth, counts
+        yield KnownFrame(seen, truth, counts)
 
 
 def _at_full_size(frame: str, folder: Path) -> tuple[Path, Path]:

@@ -1,9 +1,12 @@
 """Suites of validation, whole or shrunk to what a smoke test needs."""
 
+from pathlib import Path
 from typing import Any
 
 import msgspec
+import pandas as pd
 
+import validation
 from validation.execution.run import prepare
 from validation.suite.suite import Suite, load_suite
 
@@ -19,6 +22,13 @@ def chosen_suite(name: str, *, only: tuple[str, ...] = (), preset: str = "") -> 
         experiments = [_tiny(one, preset) for one in experiments]
     gates = () if only else suite.gates
     return prepare(msgspec.structs.replace(suite, experiments=tuple(experiments), gates=gates))
+
+
+def suite_scores(name: str, *, preset: str = "", jobs: int) -> pd.DataFrame:
+    """Return the scores of a suite; whole, its run in reports/ is kept, or gone on with."""
+    reports = Path(__file__).parent.parent / "reports"
+    kept: dict[str, Any] = {} if preset else {"out": reports / name, "resume": True}
+    return validation.run(chosen_suite(name, preset=preset), jobs=jobs, **kept).scores
 
 
 def _tiny(experiment: Any, preset: str) -> Any:

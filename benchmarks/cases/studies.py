@@ -4,9 +4,8 @@ from typing import Any
 
 import numpy as np
 from case import Case, Column, Table
-from suites import chosen_suite
+from suites import chosen_suite, suite_scores
 
-import validation
 from rockshape.method import methods
 from validation.mutations import MUTATIONS, made_views, prepare_bench
 
@@ -72,8 +71,7 @@ def movement(*, preset: str = "", jobs: int = 2) -> list[Table]:
 def scores_by_measure(*, preset: str = "", jobs: int) -> dict[tuple[str, str], dict[str, Any]]:
     """Return the scores of suite `views` by method and measure, then by statistic."""
     found: dict[tuple[str, str], dict[str, Any]] = {}
-    table = validation.run(chosen_suite("views", preset=preset), jobs=jobs).scores
-    for score in table.itertuples():
+    for score in suite_scores("views", preset=preset, jobs=jobs).itertuples():
         found.setdefault((score.method, score.measure), {})[score.statistic] = score
     return found
 

@@ -37,7 +37,7 @@ class PinholeLike(Protocol):
 
     @property
     def cx(self) -> float:
-        """TableColumn of the principal point, px."""
+        """Column of the principal point, px."""
 
     @property
     def cy(self) -> float:

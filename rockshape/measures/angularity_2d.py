@@ -99,7 +99,7 @@ def flattest_angles_rad(
 def _unit_chords(outline: NDArray[np.float64], nearest: int, farthest: int) -> NDArray[np.float64]:
     """Directions (2, offsets, farthest + n) from points to those nearest...farthest on.
 
-    TableColumn farthest + i belongs to point i; the columns before it are the last points', so that
+    Column farthest + i belongs to point i; the columns before it are the last points', so that
     the chords that end at a point lie before those that start there. NaN for no length.
     """
     ring = np.concatenate([outline[-farthest:], outline, outline[:farthest]]).T.copy()

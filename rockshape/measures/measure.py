@@ -17,7 +17,7 @@ Trait = Literal["angularity", "roundness", "roughness", "form"]
 
 @dataclass(frozen=True)
 class Measure:
-    """TableColumn of the table, the function that fills it, and what its values are held to.
+    """Column of the table, the function that fills it, and what its values are held to.
 
     `evaluate` returns the value for one rock; NaN, or the Reason if it knows one, where it cannot.
     `evaluate_batch` takes all rocks of an image at once and returns as many results; where it is

@@ -93,7 +93,7 @@ class PinholeResampling:
 
     @cached_property
     def _sources(self) -> tuple[Singles, Singles]:
-        """TableColumn and row of the lens's image that each pixel of the result shows."""
+        """Column and row of the lens's image that each pixel of the result shows."""
         rays = self.camera.unproject(np.ones(self.camera.shape))
         x, y = np.moveaxis(self.lens.project(rays), -1, 0).astype(np.float32)
         return np.ascontiguousarray(x), np.ascontiguousarray(y)

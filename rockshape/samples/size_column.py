@@ -21,7 +21,7 @@ _MM = {"mm": 1.0, "m": 1000.0}
 
 @dataclass(frozen=True)
 class SizeColumn:
-    """TableColumn of sizes, and what makes them whole diameters in mm or px."""
+    """Column of sizes, and what makes them whole diameters in mm or px."""
 
     name: str
     unit: str  # mm, px, or empty for another
@@ -38,7 +38,7 @@ class SizeColumn:
 
 
 def size_column(table: "pd.DataFrame", name: str | None) -> SizeColumn:
-    """TableColumn that was named, or the first of `DEFAULTS` with a size above 0.
+    """Column that was named, or the first of `DEFAULTS` with a size above 0.
 
     Raises: InputError where there is none, or where the one named holds no numbers.
     """

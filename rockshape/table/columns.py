@@ -13,7 +13,7 @@ JSON_SCHEMA = "https://json-schema.org/draft/2020-12/schema"
 
 @dataclass(frozen=True)
 class TableColumn:
-    """TableColumn of the table: its unit, empty for a pure number, and what it holds."""
+    """Column of the table: its unit, empty for a pure number, and what it holds."""
 
     name: str
     unit: str

@@ -55,9 +55,8 @@ class Method:
     fits: Callable[[RockView], Fits]
     measures: tuple[Measure, ...]  # in the order of the table
     errors: Callable[[], Mapping[str, ErrorModel]] | None = None  # by column; None: not estimated
-    flags: Callable[[RockView, KnownOfRock], tuple[str, ...]] | None = (
-        None  # None: the finder's alone
-    )
+    # what weakens a rock's values, beside what its finder tells
+    flags: Callable[[RockView, KnownOfRock], tuple[str, ...]] | None = None
 
     @property
     def estimated(self) -> tuple[str, ...]:

@@ -5,7 +5,8 @@ manager that takes an address and yields an `Executor`, a Dask cluster's for ins
 """
 
 from collections.abc import Callable, Iterator
-from concurrent.futures import Executor, Future, wait
+from concurrent.futures import Executor, Future
+from concurrent.futures import wait as wait_for
 from contextlib import contextmanager
 from functools import partial
 from importlib.metadata import entry_points
@@ -42,10 +43,7 @@ class RemoteExecutor(Executor):
             for future in self._futures:
                 future.cancel()
         if wait:
-            _wait(self._futures)
-
-
-_wait = wait
+            wait_for(self._futures)
 
 
 @contextmanager

@@ -38,9 +38,11 @@ class CommandParser(argparse.ArgumentParser):
         found, unknown = super().parse_known_args(args, namespace)
         if unknown:
             word = unknown[0].partition("=")[0]
-            kind = "option" if word.startswith("-") else "argument"
-            near = did_you_mean(word, self._option_string_actions) if kind == "option" else ""
-            self.error(f"unknown {kind} {word!r}{near}")
+            if word.startswith("-"):
+                near = did_you_mean(word, self._option_string_actions)
+                self.error(f"unknown option {word!r}{near}")
+            named = [str(one.metavar or one.dest) for one in self._get_positional_actions()]
+            self.error(f"unknown argument {word!r}: expected {' '.join(named) or 'options'} alone")
         return found, []
 
     def _check_value(self, action: argparse.Action, value: object) -> None:

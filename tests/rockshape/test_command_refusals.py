@@ -230,3 +230,8 @@ def test_a_defect_keeps_its_traceback(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("rockshape.inputs.files.read_picture", broken)
     with pytest.raises(ZeroDivisionError):
         main(["measure", "a.png", "--range", "b.npz"])
+
+
+def test_an_argument_too_many_is_told_with_those_expected(capsys) -> None:
+    fails_in_one_line(capsys, ["synth", "scene", "a.toml", "out"], "'out': expected OUT alone")
+    fails_in_one_line(capsys, ["validate", "run", "ci"], "'ci': expected options alone")

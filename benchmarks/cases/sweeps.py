@@ -75,6 +75,6 @@ SWEEPS_CASE = Case(
     name="sweeps",
     what="order and error of values while one key of the scene is turned, six suites",
     run=sweeps,
-    smallest={"suites": ("distance",), "preset": "imp", "jobs": 1},
+    smallest={"suites": ("burial",), "preset": "imp", "jobs": 1},
     slow=True,
 )

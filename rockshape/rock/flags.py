@@ -12,6 +12,7 @@ MIN_ROUNDNESS_PX = 30.0  # width from which roundness is read at one share of a 
 SOFT_SHARE = 0.25  # of the scale at which the outline's form is read, that its error may be
 SEEN_SHARE = 0.8  # of the longest axis, that the visible surface must span
 VISIBLE_SHARE = 0.9  # of the fitted ellipse
+SOFT_OUTLINE = "soft outline"
 
 
 @dataclass(frozen=True)
@@ -19,7 +20,7 @@ class KnownOfRock:
     """What is known of a rock beside its view."""
 
     visible_fraction: float  # of its ellipse; NaN where there is none
-    outline_sd_px: float  # standard deviation of its outline; NaN where it is not told
+    outline_error_px: float  # standard deviation of its outline; NaN of one that is taken as it is
     values: Mapping[str, float]  # of the measures by their columns, NaN where there is none
 
 
@@ -40,8 +41,8 @@ def _flags(view: RockView, known: KnownOfRock) -> Iterator[str]:
     rounded = np.isfinite(known.values.get("roundness", np.nan))
     if rounded and view.feret_px[0] < MIN_ROUNDNESS_PX:
         yield "small for roundness"
-    if view.form is not None and known.outline_sd_px > SOFT_SHARE * view.form.sigma:
-        yield "soft outline"
+    if view.form is not None and known.outline_error_px > SOFT_SHARE * view.form.sigma:
+        yield SOFT_OUTLINE
     if _extrapolated(view):
         yield "extrapolated axis"
     if known.visible_fraction < VISIBLE_SHARE:

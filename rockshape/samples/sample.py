@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.numerics.arrays import Floats
+from rockshape.rock.flags import SOFT_OUTLINE
 from rockshape.samples.size_column import SizeColumn
 
 if TYPE_CHECKING:
@@ -38,10 +39,25 @@ class Sample:
 
     @property
     def roundness(self) -> Floats:
-        """Roundness (k,) of the rocks that have it."""
+        """Roundness (k,) of the rocks that have it and no soft outline."""
         if "roundness" not in self.table:
             return np.empty(0)
-        return self.table["roundness"].dropna().to_numpy(np.float64)
+        return self.table["roundness"][~self._soft].dropna().to_numpy(np.float64)
+
+    @property
+    def soft_outlines(self) -> int:
+        """Number of rocks whose roundness is left out because their outline is soft."""
+        if "roundness" not in self.table:
+            return 0
+        return int(self.table["roundness"][self._soft].notna().sum())
+
+    @property
+    def _soft(self) -> NDArray[np.bool_]:
+        """Which rocks (n,) are flagged to have a soft outline."""
+        if "flags" not in self.table:
+            return np.zeros(len(self.table), dtype=bool)
+        flags = self.table["flags"].fillna("").astype(str)
+        return flags.str.contains(SOFT_OUTLINE, regex=False).to_numpy(bool)
 
 
 def sample_of(

@@ -84,6 +84,8 @@ class Summary:
                 f"{word} {100 * share:.0f} %" for word, share in shares.items() if share
             )
             yield f"  {scheme} ({_counted(self.classified[scheme])}): {told}"
+        if sample.soft_outlines:
+            yield f"  roundness of {_counted(sample.soft_outlines)} with a soft outline left out"
         if self.abundance is not None:
             fit = self.abundance
             told = f"k {fit.k:.3f} ({fit.low:.3f} to {fit.high:.3f})"
@@ -105,6 +107,7 @@ class Summary:
                 scheme: {"rocks": self.classified[scheme], "shares": dict(shares)}
                 for scheme, shares in self.classes.items()
             },
+            "soft_outlines": sample.soft_outlines,
         }
         if self.abundance is not None:
             fit = self.abundance

@@ -29,6 +29,12 @@ class FoundRock:
         """Standard deviation of its outline; NaN where that is the border of its pixels."""
         return float("nan") if self.outline is None else self.outline.sd_px
 
+    @property
+    def outline_error_px(self) -> float:
+        """`outline_sd_px`, but infinite where a picture alone has drawn the outline."""
+        drawn = self.branch == "image" and self.outline is None
+        return float("inf") if drawn else self.outline_sd_px
+
 
 @dataclass(frozen=True, eq=False)
 class Segmentation:

@@ -13,7 +13,7 @@ from rockshape.rock.flags import KnownOfRock
 from rockshape.rock.instances import Instances
 from rockshape.rock.view import RockView
 from rockshape.segmentation.finders import Finder
-from rockshape.segmentation.result import FoundRock, Segmentation
+from rockshape.segmentation.result import Branch, FoundRock, Segmentation
 from tests import solids
 
 
@@ -66,6 +66,24 @@ def test_an_outline_unsure_by_a_share_of_its_forms_scale_is_soft() -> None:
     assert tell(view, KnownOfRock(1.0, float("nan"), {})) == ()
 
 
+@pytest.mark.parametrize(
+    ("branch", "expected"), [("image", ("soft outline",)), ("range", ()), ("labels", ())]
+)
+def test_an_outline_that_a_picture_alone_has_drawn_is_soft(
+    branch: Branch, expected: object
+) -> None:
+    labels = np.pad(solids.disc(50), 5).astype(np.int32)
+
+    def segment(_: Observation) -> Segmentation:
+        frame = slice(0, labels.shape[0]), slice(0, labels.shape[1])
+        found = (FoundRock(1, branch),)
+        return Segmentation(Instances.from_labels(labels), None, frame, found)
+
+    image = np.ones(labels.shape, dtype=np.float32)
+    found = rockshape.measure(image, find=Finder("own", "the disc", segment))
+    assert found[0].flags == expected
+
+
 def test_robust_tells_flags_unasked_and_paper_when_asked() -> None:
     labels = np.pad(solids.disc(12), 5).astype(np.int32)
     robust, paper = (rockshape.measure(labels=labels, method=name) for name in ("robust", "paper"))
@@ -84,7 +102,7 @@ def test_flags_of_the_finder_come_first_and_once() -> None:
 
     def segment(_: Observation) -> Segmentation:
         frame = slice(0, labels.shape[0]), slice(0, labels.shape[1])
-        found = FoundRock(1, "image", ("shadowed", "truncated"))
+        found = FoundRock(1, "range", ("shadowed", "truncated"))
         return Segmentation(Instances.from_labels(labels), None, frame, (found,))
 
     find = Finder("own", "the disc", segment)

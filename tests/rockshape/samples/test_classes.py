@@ -1,8 +1,11 @@
 """Classes of form and roundness, by hand."""
 
 import numpy as np
+import pandas as pd
 
 from rockshape.samples import form_classes as forms
+from rockshape.samples.sample import sample_of
+from rockshape.samples.size_column import SizeColumn
 
 
 def names(classes: np.ndarray, of: tuple[str, ...]) -> list[str]:
@@ -45,3 +48,18 @@ def test_powers_and_krumbein() -> None:
 def test_shares_sum_to_one() -> None:
     found = forms.shares(np.array([0, 2, 2, 1]), 4)
     assert found.tolist() == [0.25, 0.25, 0.5, 0]
+
+
+def test_roundness_off_a_soft_outline_is_in_no_class() -> None:
+    table = pd.DataFrame(
+        {
+            "minor_axis_mm": [10.0, 20.0, 30.0, 40.0],
+            "roundness": [0.1, 0.5, np.nan, 0.7],
+            "flags": ["soft outline", "hidden", "small; soft outline", None],
+        }
+    )
+    sample = sample_of(table, SizeColumn("minor_axis_mm", "mm", 1.0))
+    assert sample.roundness.tolist() == [0.5, 0.7]
+    assert sample.soft_outlines == 1
+    assert len(sample) == 4
+    assert sample_of(table.drop(columns="flags"), sample.column).soft_outlines == 0

@@ -1,6 +1,6 @@
 """Designed experiment: the same rocks in every cell of views, distances, suns and rolls."""
 
-from typing import Annotated, Any, Self
+from typing import Annotated
 
 import msgspec
 from msgspec import Meta
@@ -9,13 +9,13 @@ from synth.spec import SceneSpec
 from synth.spec.ground import GroundSpec
 from synth.spec.limits import Degrees
 from synth.spec.view import SunSpec
-from validation.suite.experiment import MeasuredExperiment
-from validation.suite.scene import has_exact_range, with_renderer
+from validation.suite.measured_scenes import MeasuredScenes
+from validation.suite.scene import has_exact_range
 
 CLEAN, FOUND, NOISY = STATES = ("clean", "found", "noisy")
 
 
-class DesignExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="design"):
+class DesignExperiment(MeasuredScenes, frozen=True, kw_only=True, tag="design"):
     """The same rocks in every cell of views × distances × suns × rolls: what moves their values.
 
     Scene i of the experiment is scene 0 of `scene` with the seed `seed` + i, its rocks placed for
@@ -23,7 +23,6 @@ class DesignExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="desig
     of pixels.
     """
 
-    scenes: Annotated[int, Meta(ge=1, le=9999)]
     distances_m: Annotated[tuple[Annotated[float, Meta(gt=0)], ...], Meta(min_length=2)]
     suns: Annotated[tuple[SunSpec, ...], Meta(min_length=2)]
     rolls_deg: Annotated[tuple[Degrees, ...], Meta(min_length=2)]
@@ -55,16 +54,3 @@ class DesignExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="desig
             raise ValueError("scene: expected counted rocks on the plain level ground")
         if scene.views.count < 2 or scene.views.path == "drive-by":
             raise ValueError("scene.views: expected two or more at one distance")
-
-    @property
-    def units(self) -> tuple[tuple[str, int], ...]:
-        """Each scene, in all its cells."""
-        return tuple(("", scene) for scene in range(self.scenes))
-
-    def dependencies(self, series: str, scene: int) -> dict[str, Any]:  # noqa: ARG002
-        """What a unit depends on."""
-        return self.plain(without=("title", "scenes"))
-
-    def settled(self) -> Self:
-        """Spec with the renderer of this machine."""
-        return msgspec.structs.replace(self, scene=with_renderer(self.scene))

@@ -1,13 +1,12 @@
 """Fused experiment: views of the same rocks, fused under poses that are exact, off and refined."""
 
-from typing import Annotated, Any, Self
+from typing import Annotated
 
-import msgspec
 from msgspec import UNSET, Meta
 
 from synth.spec import SceneSpec
-from validation.suite.experiment import MeasuredExperiment
-from validation.suite.scene import check_scene_is_single, with_renderer
+from validation.suite.measured_scenes import MeasuredScenes
+from validation.suite.scene import check_scene_is_single
 
 ALONE = "alone"  # every view by itself
 GIVEN, REFINED, EXACT = "given", "refined", "exact"  # views fused, by their poses
@@ -15,7 +14,7 @@ FUSED = (GIVEN, REFINED, EXACT)
 SERIES = (ALONE, *FUSED)
 
 
-class FusedExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="fused"):
+class FusedExperiment(MeasuredScenes, frozen=True, kw_only=True, tag="fused"):
     """Rocks with true masks, seen from several places whose reported poses are off.
 
     Scene i of the experiment is scene 0 of `scene` with the seed `seed` + i. Its records have a
@@ -24,7 +23,6 @@ class FusedExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="fused"
     """
 
     methods: Annotated[tuple[str, ...], Meta(min_length=1)] = ("robust",)
-    scenes: Annotated[int, Meta(ge=1, le=9999)]
     scene: SceneSpec
     min_visible_fraction: Annotated[float, Meta(ge=0, le=1)] = 0.5
 
@@ -38,20 +36,3 @@ class FusedExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="fused"
             )
         if self.scene.calibration is UNSET:
             raise ValueError("scene.calibration: expected errors of the poses, found none")
-
-    @property
-    def units(self) -> tuple[tuple[str, int], ...]:
-        """Each scene."""
-        return tuple(("", scene) for scene in range(self.scenes))
-
-    def dependencies(self, series: str, scene: int) -> dict[str, Any]:  # noqa: ARG002
-        """What a unit depends on."""
-        return self.plain(without=("title", "scenes"))
-
-    def settled(self) -> Self:
-        """Spec with the renderer of this machine."""
-        return msgspec.structs.replace(self, scene=with_renderer(self.scene))
-
-    def first(self, scenes: int) -> Self:
-        """Spec with at most so many scenes."""
-        return msgspec.structs.replace(self, scenes=min(scenes, self.scenes))

@@ -1,19 +1,19 @@
 """Multi-view experiment: rocks of known shape seen from several views."""
 
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal
 
 import msgspec
 from msgspec import Meta
 
 from synth.spec import SceneSpec
 from validation.kinds.multiview.sweep import Sweep
-from validation.suite.experiment import MeasuredExperiment
-from validation.suite.scene import check_scene_is_single, with_renderer
+from validation.suite.measured_scenes import MeasuredScenes
+from validation.suite.scene import check_scene_is_single
 
 Varied = Literal["angularity", "roughness", "form"]
 
 
-class MultiviewExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="multiview"):
+class MultiviewExperiment(MeasuredScenes, frozen=True, kw_only=True, tag="multiview"):
     """Rocks seen from several views, as in the paper's figure 10, but with truth.
 
     Scene i of the experiment is scene 0 of `scene` with the seed `seed` + i; with a sweep, at each
@@ -22,9 +22,7 @@ class MultiviewExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="mu
 
     takes_measures: ClassVar[bool] = True
 
-    scenes: Annotated[int, Meta(ge=1, le=9999)]
     varied: Annotated[tuple[Varied, ...], Meta(min_length=1)]  # truths that differ between rocks
-    scene: SceneSpec = SceneSpec()
     sweep: Sweep | None = None
     labels: Literal["found", "true"] = "found"  # whose masks are measured
     min_visible_fraction: Annotated[float, Meta(ge=0, le=1)] = 0.8
@@ -69,11 +67,3 @@ class MultiviewExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="mu
             "pictured": self.is_pictured(scene),
             "portrayed": self.has_portraits,
         }
-
-    def settled(self) -> Self:
-        """Spec with the renderer of this machine."""
-        return msgspec.structs.replace(self, scene=with_renderer(self.scene))
-
-    def first(self, scenes: int) -> Self:
-        """Spec with at most so many scenes."""
-        return msgspec.structs.replace(self, scenes=min(scenes, self.scenes))

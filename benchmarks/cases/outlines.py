@@ -3,9 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 
-import cv2
 import numpy as np
 from case import Case, Cell, Column, Table
 from cases.roundness import rock_outlines
@@ -21,14 +19,10 @@ from rockshape.outline.form import form_of
 from rockshape.outline.roundness import wadell_roundness
 from rockshape.rock.view import RockView
 from synth.shapes.outline import RoundedPolygon
+from validation.kinds.pebbles.sheet import pebble_masks, shrunk
+from validation.kinds.pebbles.spec import PebblesExperiment
+from validation.suite.suite import load_suite
 
-PICTURES = Path(__file__).parents[2] / "validation" / "kinds" / "photographs" / "pictures"
-PHOTOGRAPHS = {  # photograph: whether the form's scale was chosen on it
-    "river-gravel-1": "scale chosen on it",
-    "barton-creek": "scale chosen on it",
-    "river-gravel-2": "held out",
-}
-LEAST_AREA_PX = np.pi * 18**2  # a disc of 36 px, 12 px at a third
 WAVELENGTHS = (2.0, 1.0, 0.5, 0.25, 0.125, 0.0625)  # over √(A/π), all of one height
 HEIGHT = 0.010  # RMS of all, over √(A/π): with it the former roundness fell as on the chart itself
 STEPS = 4096
@@ -121,54 +115,17 @@ def _read(measure: roundness.Measure, mask: Mask) -> float:
     return measure.read(RockView(mask=mask)).value
 
 
-def pebbles() -> dict[str, list[Mask]]:
-    """Whole grains of the photographs with hand-made masks, 36 px and more."""
-    found = {}
-    for name in PHOTOGRAPHS:
-        drawn = cv2.imread(str(PICTURES / f"{name}_mask.png"), cv2.IMREAD_UNCHANGED)
-        if name == "barton-creek":  # 0 ground, 1 grain, 2 border
-            _, drawn = cv2.connectedComponents((drawn == 1).astype(np.uint8), connectivity=4)
-        masks = [drawn == number for number in np.unique(drawn)[1:]]
-        found[name] = [one for one in masks if one.sum() >= LEAST_AREA_PX and not _cut(one)]
+def pebbles() -> list[Mask]:
+    """Pebbles of the photographs with masks made by hand, as the suite `outlines` measures them."""
+    suite = load_suite("outlines")
+    found: list[Mask] = []
+    for experiment in suite.experiments:
+        if isinstance(experiment, PebblesExperiment):
+            for number in range(experiment.pictures.count):
+                labels = experiment.pictures.picture(experiment.seed, number).truth.labels
+                if labels is not None:
+                    found += pebble_masks(labels, experiment.min_width_px)
     return found
-
-
-def _cut(mask: Mask) -> bool:
-    return bool(mask[0].any() or mask[-1].any() or mask[:, 0].any() or mask[:, -1].any())
-
-
-def shrunk(mask: Mask, factor: int) -> Mask:
-    """Mask of pixels so many times as large, in where half of one is."""
-    if factor == 1:
-        return mask
-    rows, cols = (side // factor for side in mask.shape)
-    blocks = mask[: rows * factor, : cols * factor].reshape(rows, factor, cols, factor)
-    return np.asarray(blocks.mean(axis=(1, 3)) >= 0.5)
-
-
-def pebbles_by_resolution(*, most: int = 1000) -> list[Table]:
-    """What 2-D measures of real pebbles do at a half and a third of the resolution."""
-    rows: list[tuple[Cell, ...]] = []
-    for photograph, masks in pebbles().items():
-        for measure in (roundness.ROBUST, angularity_2d.ROBUST, ellipse_error.ROBUST):
-            found = np.array(
-                [[_read(measure, shrunk(mask, by)) for by in (1, 2, 3)] for mask in masks[:most]]
-            )
-            full = found[:, 0]
-            cells: list[Cell] = []
-            for at in (1, 2):
-                both = np.isfinite(full) & np.isfinite(found[:, at])
-                change = float(np.median(found[both, at]) - np.median(full[both]))
-                tau = float(kendalltau(full[both], found[both, at]).statistic)
-                cells += [change, tau, 100 * float(both.mean())]
-            head = (photograph, PHOTOGRAPHS[photograph], f"`{measure.column}`", len(found))
-            rows.append((*head, float(np.nanmedian(full)), *cells))
-    columns = [Column("photograph"), Column(""), Column("measure"), Column("pebbles", "", "d")]
-    columns.append(Column("median", "", ".3f"))
-    for part in ("1/2", "1/3"):
-        columns.append(Column(f"{part}: change of the median", "", "+.3f"))
-        columns += [Column("τ", "", ".2f"), Column("answered", "%", ".0f")]
-    return [Table(tuple(columns), rows)]
 
 
 def ablation(*, charts: int = 1, scenes: int = 14, draws: int = 400) -> list[Table]:
@@ -177,7 +134,7 @@ def ablation(*, charts: int = 1, scenes: int = 14, draws: int = 400) -> list[Tab
     rocks = rock_outlines(range(REPORTED_FROM, REPORTED_FROM + scenes))
     drawn = [(one.mask(200), one.known) for one in rough]
     many = [(drawer(100), known) for drawer, known in rocks]
-    grains = [mask for masks in pebbles().values() for mask in masks]
+    grains = pebbles()
     rows: list[tuple[Cell, ...]] = []
     for share in SHARES:
         chart, rock = (_roundness_at(share, some) for some in (drawn, many))
@@ -244,12 +201,6 @@ OUTLINES_CASE = Case(
     what="2-D measures on 81 graded rough silhouettes by size in pixels",
     run=chart_by_size,
     smallest={"sizes_px": (60,), "charts": 1},
-)
-PEBBLES_CASE = Case(
-    name="pebbles",
-    what="2-D measures of real pebbles at full, half and a third of the resolution",
-    run=pebbles_by_resolution,
-    smallest={"most": 2},
 )
 FORM_SCALE_CASE = Case(
     name="form_scale",

@@ -56,8 +56,7 @@ def _smooth() -> list[Drawn]:
 
 def _real() -> list[Drawn]:
     """The largest grains of the photographs, their outlines without the staircase."""
-    masks = [mask for some in pebbles().values() for mask in some]
-    edges = [pixel_smooth(trace_edge(mask)) for mask in masks]
+    edges = [pixel_smooth(trace_edge(mask)) for mask in pebbles()]
     large = [edge for edge in edges if np.ptp(edge, axis=0).min() >= LEAST_REAL_PX]
     return [Drawn(_long(edge), float("nan"), number) for number, edge in enumerate(large[:SHAPES])]
 

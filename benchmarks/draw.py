@@ -22,7 +22,7 @@ PICTURES = {
     "oblique_beds": "gravel beds from the side with their labels, beside photographs of Mars",
     "finder": "photographs with masks, by the image branch and by the network",
     "findings": "shares of each cause, suite `views` (minutes)",
-    "outlines": "level of the 2-D measures by size, on smooth, rough and real outlines",
+    "outlines": "level of the 2-D measures and their peers by width, from benchmarks/results.json",
     "paper_frames": "the named rocks of the paper's figures 11 and 12, outlined by hand",
     "range_noise": "estimated over true range noise by ground, from benchmarks/results.json",
     "realism": "made pictures beside photographs of their kind",

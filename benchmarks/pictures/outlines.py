@@ -1,65 +1,72 @@
-"""Level of the 2-D measures by size in pixels, on smooth, rough and real outlines."""
+"""Level of the 2-D measures and the peers' by width, drawn from benchmarks/results.json."""
 
 from pathlib import Path
 
-import numpy as np
-from cases.outlines import Drawn, Reader, pebbles, readers, rough_chart
+import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from silhouettes import REPORTED_FROM, Floats
-from silhouettes import draw as draw_shapes
+from matplotlib.lines import Line2D
+from results import load_results
 
-from rockshape.outline.edge import trace_edge
-from rockshape.outline.resample import pixel_smooth
-
-SIZES_PX = (30, 40, 60, 100, 200, 400, 1000)
-SHAPES = 16  # of each kind
-LEAST_REAL_PX = 65  # of the grains' own width: finer, their ripples are what the hand has drawn
+STYLES = {
+    "paper": ("0.45", "s"),
+    "scikit-image": ("#E69F00", "^"),
+    "fast_rs": ("#D55E00", "v"),
+    "imea": ("#009E73", "D"),
+    "partimorph": ("#CC79A7", "P"),
+    "robust": ("#0072B2", "o"),  # above the others
+}
+OURS = {by: f"rockshape, {by}" for by in ("robust", "paper")}
+SECOND = "circularity"  # dashed: where a package has two numbers in one panel
+SPAN = (0.5, 2.0)
+TICKS = (0.5, 0.7, 1.0, 1.4, 2.0)
 
 
 def draw(folder: Path) -> None:
-    """Draw outlines.png."""
-    kinds = {"smooth": _smooth(), "rough": rough_chart(REPORTED_FROM)[::5], "real": _real()}
-    figure = Figure(figsize=(10, 3.6), layout="constrained")
-    panels = figure.subplots(1, len(kinds), sharey=True)
-    for panel, (title, shapes) in zip(panels, kinds.items(), strict=True):
-        for name, reader in readers().items():
-            values = [_mean(reader, shapes, size) for size in SIZES_PX]
-            panel.plot(
-                SIZES_PX,
-                np.array(values) / values[-1],
-                marker="o",
-                ms=3,
-                label=name.replace("`", ""),
-            )
-        panel.set(xscale="log", yscale="log", ylim=(0.5, 8), xlabel="longer side, px")
-        panel.set_title(f"{title}, {len(shapes)} outlines", fontsize=10)
-        panel.set_xticks(SIZES_PX, [str(size) for size in SIZES_PX])
-        panel.set_yticks([0.5, 1, 2, 4, 8], ["0.5", "1", "2", "4", "8"])
-        panel.minorticks_off()
-        panel.grid(alpha=0.3)
-    panels[0].set_ylabel("mean value over that at 1000 px")
-    panels[0].legend(fontsize=8, frameon=False)
-    figure.savefig(folder / "outlines.png", dpi=110)
-
-
-def _mean(reader: Reader, shapes: list[Drawn], size_px: int) -> float:
-    return float(np.nanmean([reader(shape.mask(size_px)) for shape in shapes]))
-
-
-def _smooth() -> list[Drawn]:
-    chart = draw_shapes("krumbein", seed=REPORTED_FROM)[::5]
-    return [
-        Drawn(_long(one.shape.outline.outline_px()), one.shape.outline.roundness(), one.seed)
-        for one in chart
+    """Write outlines.png: a row for each kind of outline, a column for each measure."""
+    (table,) = (
+        one for one in load_results()["outline_curves"]["tables"] if one["name"] == "curves"
+    )
+    heads = [name for name, _, _ in table["columns"]]
+    rows = pd.DataFrame(table["rows"], columns=heads)
+    widths = [head for head in heads if head.endswith(" px")]
+    kinds, measures = rows["outlines"].unique(), rows["beside"].unique()
+    figure = Figure(figsize=(13, 7.2), layout="constrained")
+    grid = figure.subplots(len(kinds), len(measures), sharex=True, sharey=True)
+    for kind, line in zip(kinds, grid, strict=True):
+        for measure, panel in zip(measures, line, strict=True):
+            own = rows[(rows["outlines"] == kind) & (rows["beside"] == measure)]
+            _panel(panel, own, widths)
+        line[0].set_ylabel(f"{kind} ({own['number'].iloc[0]} outlines)\nover that at {widths[-1]}")
+    for measure, panel in zip(measures, grid[0], strict=True):
+        panel.set_title(measure, fontsize=10)
+    for panel in grid[-1]:
+        panel.set_xlabel("width, px")
+    styles = [
+        Line2D([], [], color=colour, marker=marker, ms=4, label=OURS.get(by, by))
+        for by, (colour, marker) in reversed(STYLES.items())
     ]
+    styles.append(Line2D([], [], color="0.2", ls="--", label=SECOND))
+    figure.legend(handles=styles, loc="outside lower center", ncols=len(styles), frameon=False)
+    figure.savefig(folder / "outlines.png", dpi=100)
 
 
-def _real() -> list[Drawn]:
-    """The largest grains of the photographs, their outlines without the staircase."""
-    edges = [pixel_smooth(trace_edge(mask)) for mask in pebbles()]
-    large = [edge for edge in edges if np.ptp(edge, axis=0).min() >= LEAST_REAL_PX]
-    return [Drawn(_long(edge), float("nan"), number) for number, edge in enumerate(large[:SHAPES])]
-
-
-def _long(outline: Floats) -> Floats:
-    return np.asarray(outline / np.ptp(outline, axis=0).max())
+def _panel(panel: Axes, own: pd.DataFrame, widths: list[str]) -> None:
+    sizes = [int(width.removesuffix(" px")) for width in widths]
+    panel.axhspan(0.95, 1.05, color="0.92", lw=0)
+    for by, (colour, marker) in STYLES.items():
+        for _, one in own[own["by"] == by].iterrows():
+            panel.plot(
+                sizes,
+                one[widths].to_numpy(float),
+                color=colour,
+                marker=marker,
+                ms=4,
+                lw=2.0 if by == "robust" else 1.2,
+                ls="--" if one["measure"] == SECOND else "-",
+            )
+    panel.set(xscale="log", yscale="log", ylim=SPAN)
+    panel.set_xticks(sizes, [str(size) for size in sizes], fontsize=8)
+    panel.set_yticks(TICKS, [f"{tick:g}" for tick in TICKS])
+    panel.minorticks_off()
+    panel.grid(alpha=0.3)

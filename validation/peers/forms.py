@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import rockshape
-from rockshape.ground.plane import fit_plane
+from rockshape.ground.plane import Plane, fit_plane
 from synth.geometry.min_volume_box import smallest_box
 from validation.peers.declare import expected_trait
 
@@ -39,16 +39,21 @@ def visible_box(
     """Smallest box of the visible points and of their feet on the ground's plane."""
     del image
     plane = fit_plane(points_m[labels == 0])
-    found = []
-    for number in np.unique(labels[labels > 0]):
-        seen = points_m[labels == number]
-        seen = seen[np.isfinite(seen).all(axis=1)]
-        if plane is None or len(seen) < 4:
-            found.append(float("nan"))
-            continue
-        feet = seen - plane.height_m(seen)[:, None] * plane.normal
-        found.append(_sphericity(smallest_box(np.concatenate([seen, feet])).half_sides_m))
-    return {"sphericity_3d": found}
+    numbers = np.unique(labels[labels > 0])
+    boxes = [visible_half_axes_m(points_m[labels == number], plane) for number in numbers]
+    return {"sphericity_3d": [_sphericity(half_axes_m) for half_axes_m in boxes]}
+
+
+def visible_half_axes_m(points_m: NDArray[np.float64], plane: Plane | None) -> NDArray[np.float64]:
+    """Half-axes (3,) of the smallest box of a rock's points (n, 3) and their feet, longest first.
+
+    NaN without a plane or with fewer than four known points.
+    """
+    seen_m = points_m[np.isfinite(points_m).all(axis=1)]
+    if plane is None or len(seen_m) < 4:
+        return np.full(3, np.nan)
+    feet_m = seen_m - plane.height_m(seen_m)[:, None] * plane.normal
+    return smallest_box(np.concatenate([seen_m, feet_m])).half_sides_m
 
 
 @expected_trait(sphericity_3d="form")

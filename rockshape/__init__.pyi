@@ -15,6 +15,7 @@ from .measures.functions import angularity_3d as angularity_3d
 from .measures.functions import axis_ratio as axis_ratio
 from .measures.functions import ellipse_error as ellipse_error
 from .measures.functions import ellipsoid_error as ellipsoid_error
+from .measures.functions import roughness_2d as roughness_2d
 from .measures.functions import roughness_3d as roughness_3d
 from .measures.functions import roundness as roundness
 from .measures.functions import sphericity_2d as sphericity_2d

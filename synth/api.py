@@ -48,8 +48,9 @@ def make_shapes(
     size_px: float | None = None,
     turn_deg: float = 0.0,
 ) -> DrawnShapes:
-    """Drawn shapes of a series: `roundness`, `sphericity`, `both`, `krumbein`, `rough` or `jagged`.
+    """Drawn shapes of a series.
 
+    `series` is `roundness`, `sphericity`, `both`, `krumbein`, `rough`, `rippled` or `jagged`.
     The series' parameter rises in `count` even steps (4 by default) or takes the values `knobs`.
     `size_px` (30 to 1000) makes it the long side of each shape, `turn_deg` turns the shapes.
     The truth is the exact outline's, from which the pen strays by `jitter_rms_px` pixels RMS.

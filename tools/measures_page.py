@@ -9,7 +9,7 @@ from inspect import cleandoc
 from pathlib import Path
 from types import ModuleType
 
-from rockshape.measures import Measure
+from rockshape.measures import ON_DEMAND, Measure
 from rockshape.method import methods
 
 PAGE = Path(__file__).parent.parent / "docs" / "measures.md"
@@ -81,7 +81,8 @@ def sections_of(module: ModuleType) -> dict[str, str]:
 def measure_modules() -> dict[ModuleType, list[tuple[str, Measure]]]:
     """The measures' modules with the readings that each has, in the order of the robust table."""
     readings = [(name, entry) for name, method in methods().items() for entry in method.measures]
-    both = (*methods()["robust"].measures, *methods()["paper"].measures)
+    readings += [("robust", entry) for entry in ON_DEMAND]
+    both = (*methods()["robust"].measures, *methods()["paper"].measures, *ON_DEMAND)
     order = [entry.evaluate.__module__ for entry in both]
     readings.sort(key=lambda reading: order.index(reading[1].evaluate.__module__))
     found: dict[ModuleType, list[tuple[str, Measure]]] = {}

@@ -6,6 +6,7 @@ from rockshape.measures import (
     axis_ratio,
     ellipse_error,
     ellipsoid_error,
+    roughness_2d,
     roughness_3d,
     roundness,
     sphericity_2d,
@@ -35,4 +36,6 @@ ROBUST = (
     roughness_3d.ROBUST,
 )
 
-__all__ = ["PAPER", "ROBUST", "Measure", "Reading", "Reason", "Trait"]
+ON_DEMAND = (roughness_2d.ROBUST,)  # in no table: few rocks have enough pixels for it
+
+__all__ = ["ON_DEMAND", "PAPER", "ROBUST", "Measure", "Reading", "Reason", "Trait"]

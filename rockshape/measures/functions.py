@@ -23,6 +23,7 @@ from rockshape.measures import angularity_3d as _angularity_3d
 from rockshape.measures import axis_ratio as _axis_ratio
 from rockshape.measures import ellipse_error as _ellipse_error
 from rockshape.measures import ellipsoid_error as _ellipsoid_error
+from rockshape.measures import roughness_2d as _roughness_2d
 from rockshape.measures import roughness_3d as _roughness_3d
 from rockshape.measures import roundness as _roundness
 from rockshape.measures import sphericity_2d as _sphericity_2d
@@ -64,6 +65,11 @@ def angularity_2d(rock: ArrayLike, *, method: str = "robust") -> Reading:
 def roundness(rock: ArrayLike) -> Reading:
     """Wadell roundness of a mask or outline."""
     return _roundness.ROBUST.read(_flat_view(rock))
+
+
+def roughness_2d(rock: ArrayLike) -> Reading:
+    """2-D roughness of a mask or outline."""
+    return _roughness_2d.ROBUST.read(_flat_view(rock))
 
 
 def ellipsoid_error(

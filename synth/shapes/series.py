@@ -20,6 +20,8 @@ _BOTH_SIDES = (0.35, 0.95)  # short over long side, ends of the series `both`
 _SIDES = (0.18, 0.96)  # short over long side, ends of the series `sphericity`
 _CORNER_ROUNDNESS = 0.6  # of the series `sphericity`
 _WAVES = 0.03  # RMS of the series `rough`, over √(A/π)
+_HEIGHTS = (0.002, 0.03)  # ends of the series `rippled`
+_RIPPLED_ROUNDNESS = 0.3
 _DEPTHS = (0.3, 0.0)  # ends of the series `jagged`
 _JAGGED_ROUNDNESS = 0.7
 _MAX_SHAPES = 100
@@ -90,6 +92,18 @@ def rough_series(knobs: Floats, rng: np.random.Generator) -> list[Shape]:
     return [replace(shape, roughness=waves) for shape in roundness_series(knobs, rng)]
 
 
+def rippled_series(knobs: Floats, rng: np.random.Generator) -> list[Shape]:
+    """Rippled series: one outline of one roundness under waves of five lengths, ever higher.
+
+    The knob is the waves' RMS height over √(A/π).
+    """
+    smooth = rounded_polygons([_RIPPLED_ROUNDNESS], [_RECTANGLE_RATIO], rng)[0]
+    return [
+        replace(smooth, knob=float(height), roughness=Roughness("waves", float(height)))
+        for height in knobs
+    ]
+
+
 def jagged_series(knobs: Floats, rng: np.random.Generator) -> list[Shape]:
     """Jagged series: one outline of one roundness under teeth ever less deep, the first deepest.
 
@@ -149,5 +163,6 @@ SERIES: Mapping[str, Series] = {
     "sphericity": Series(sphericity_series, ends=_SIDES, limits=(0.05, 1.0)),
     "both": Series(both_series, ends=_ROUNDNESS, limits=(0.01, 0.95)),
     "rough": Series(rough_series, ends=_ROUNDNESS, limits=(0.01, 0.95)),
+    "rippled": Series(rippled_series, ends=_HEIGHTS, limits=(0.0, 0.05)),
     "jagged": Series(jagged_series, ends=_DEPTHS, limits=(0.0, 0.35)),
 }

@@ -54,8 +54,17 @@ def test_the_rough_series_keeps_the_roundness_of_its_smooth_outlines():
     np.testing.assert_allclose(rough.rough_area_px2, smooth.area_px2, rtol=0.02)
 
 
+def test_the_rippled_series_is_one_outline_under_waves_of_the_knobs_height():
+    truth = synth.make_shapes("rippled", knobs=[0.0, 0.01, 0.04], seed=5, size_px=300.0).truth
+    assert truth.roundness.nunique() == truth.area_px2.nunique() == 1
+    heights = truth.roughness_rms_px / np.sqrt(truth.area_px2 / np.pi)
+    np.testing.assert_allclose(heights, [0.0, 0.01, 0.04], rtol=1e-9)
+    with pytest.raises(SpecError, match=r"knobs: expected 0 to 0.05 for rippled, found 0.06"):
+        synth.make_shapes("rippled", knobs=[0.06])
+
+
 def test_labels_hold_the_rough_outlines_area():
-    for series in ("rough", "jagged"):
+    for series in ("rough", "rippled", "jagged"):
         shapes = synth.make_shapes(series, count=3, seed=1, size_px=300.0, jitter_rms_px=0.0)
         counted = np.bincount(shapes.labels.ravel())[1:]
         np.testing.assert_allclose(counted, shapes.truth.rough_area_px2, rtol=5e-3)
@@ -132,7 +141,7 @@ def test_silhouettes_are_rough_at_several_wavelengths_at_any_size(size_px, bands
 
 
 @pytest.mark.parametrize("size_px", [30.0, 200.0, 1000.0])
-@pytest.mark.parametrize("series", ["rough", "jagged"])
+@pytest.mark.parametrize("series", ["rough", "rippled", "jagged"])
 def test_roundness_of_rough_shapes_is_that_of_the_form_under_them(series, size_px):
     # Wadell's: all corners have one radius; the inscribed disc is sought in pixels of the form
     # itself, drawn 1600 px long, whose distance transform is good to a pixel of some 500.

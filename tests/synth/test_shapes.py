@@ -169,7 +169,7 @@ def test_files_agree(tmp_path, series):
 def test_bad_series_and_count(tmp_path):
     with pytest.raises(
         SpecError,
-        match="expected one of roundness, sphericity, both, krumbein, rough, jagged, found 'star'",
+        match="krumbein, rough, rippled, jagged, found 'star'",
     ):
         write_series("star", tmp_path, count=4)
     with pytest.raises(SpecError, match=r"^count"):

@@ -114,7 +114,7 @@ def test_unreadable_truth(tmp_path) -> None:
             read_instances(path)
     table = tmp_path / "truth.csv"
     table.write_text("rock,roundness\n1,0.5\n", encoding="utf-8")
-    with pytest.raises(InputError, match="axis_ratio"):
+    with pytest.raises(InputError, match="area_px2"):
         read_shape_truth(table)
     with pytest.raises(InputError, match=r"none\.csv"):
         read_shape_truth(tmp_path / "none.csv")

@@ -152,17 +152,23 @@ def read_shape_truth(path: Path) -> pd.DataFrame:
         table = pd.read_csv(path)
     except (OSError, ValueError) as error:
         raise InputError(f"{path}: expected a series' truth.csv, found {error}") from error
-    missing = {"rock", "roundness", "axis_ratio", "rectangle_ratio"} - set(table.columns)
+    missing = {"rock", "roundness", "area_px2", "axis_ratio", "rectangle_ratio"} - set(
+        table.columns
+    )
     if missing:
         raise InputError(
             f"{path}: expected the column {min(missing)}, found {', '.join(table.columns)}"
         )
+    smooth = pd.Series(0.0, index=table.index)
+    heights_px = table.get("roughness_rms_px", smooth)
+    radius_px = np.sqrt(table["area_px2"] / np.pi)
     return pd.DataFrame(
         {
             "instance": table["rock"] - 1,
             "obj_id": table["rock"],
             "truth_roundness": table["roundness"],
             "truth_angularity": 1.0 - table["roundness"],
+            "truth_roughness": heights_px / radius_px,
             "truth_axis_ratio": table["axis_ratio"],
             "truth_rectangle_ratio": table["rectangle_ratio"],
         }

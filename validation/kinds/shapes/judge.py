@@ -19,6 +19,7 @@ __all__ = ["FEEDS", "claims", "definitions", "gap_shares", "ranked_claims", "vie
 _TRAITS: dict[ShapeSeries, tuple[Trait, ...]] = {
     "roundness": ("angularity", "roundness"),
     "rough": ("angularity", "roundness"),
+    "rippled": ("roughness",),
     "sphericity": ("form",),
 }
 _OUTLINE = "outline_"  # names of an outline's truths where a solid has its own

@@ -6,7 +6,7 @@ from msgspec import Meta
 
 from validation.suite.experiment import MeasuredExperiment
 
-ShapeSeries = Literal["roundness", "sphericity", "rough"]
+ShapeSeries = Literal["roundness", "sphericity", "rough", "rippled"]
 
 
 class ShapesExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="shapes"):
@@ -21,6 +21,7 @@ class ShapesExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="shape
     series: Annotated[tuple[ShapeSeries, ...], Meta(min_length=1)] = ("roundness", "sphericity")
     count: Annotated[int, Meta(ge=3, le=12)] = 4
     size_px: Annotated[float, Meta(ge=30, le=1000)] | None = None  # None: the series' own
+    jitter_px: Annotated[float, Meta(ge=0, le=5)] = 0.35  # RMS by which the pen strays
 
     @property
     def units(self) -> tuple[tuple[str, int], ...]:

@@ -22,7 +22,12 @@ def views(unit: Unit[ShapesExperiment]) -> tuple[list[ViewCase], str]:
     with TemporaryDirectory(prefix="rockshape-") as parent:
         folder = Path(parent) / "data"
         write_series(
-            unit.series, folder, count=experiment.count, seed=seed, size_px=experiment.size_px
+            unit.series,
+            folder,
+            count=experiment.count,
+            seed=seed,
+            size_px=experiment.size_px,
+            jitter_rms_px=experiment.jitter_px,
         )
         image = read_image(folder / "image.png")
         case = ViewCase(

@@ -26,7 +26,7 @@ def main() -> None:
     parser.add_argument(
         "--fitted",
         type=int,
-        default=16,
+        default=32,
         help="pictures a part for the likelihood (%(default)s)",
     )
     parser.add_argument("--jobs", type=int, default=2, help="processes for tiles (%(default)s)")

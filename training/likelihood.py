@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
-from rockshape.segmentation.by_network.likelihood import features_of, terms
+from rockshape.segmentation.by_network.likelihood import Model, features_of, terms
 from rockshape.segmentation.by_network.merge_tree import MergeTree, merge_tree
 from rockshape.segmentation.by_network.regions import regions_of
 from rockshape.segmentation.by_network.scales import joint_answer
@@ -24,10 +24,11 @@ FITTED = 900  # seed of the tiles that it is fitted to
 _NO_ROCK, _ROCK = 0.3, 0.7  # intersection over union with the best rock
 _DRAWS = 2  # other cameras for each
 _RIDGE = 1e-2
+_TAIL = 0.005  # share of each feature beyond either end
 
 
-def fit(tiles: Iterator[Tile]) -> Floats:
-    """Coefficients of the logistic model, with a slight ridge.
+def fit(tiles: Iterator[Tile]) -> Model:
+    """Logistic model, with a slight ridge, and the ends of its features.
 
     Tiles are seen as by other cameras, so that the answers are as unsure as those of pictures that
     the network has not been taught with.
@@ -36,10 +37,12 @@ def fit(tiles: Iterator[Tile]) -> Floats:
     rows, wanted = [], []
     for tile in tiles:
         for _ in range(_DRAWS):
-            features, target = samples(*draw_crop(tile, SIDE_PX, rng))
-            rows.append(features)
-            wanted.append(target)
-    design, target = terms(np.concatenate(rows)), np.concatenate(wanted)
+            nodes, whole = samples(*draw_crop(tile, SIDE_PX, rng))
+            rows.append(nodes)
+            wanted.append(whole)
+    features, target = np.concatenate(rows), np.concatenate(wanted)
+    least, greatest = np.quantile(features, [_TAIL, 1.0 - _TAIL], axis=0)
+    design = terms(np.clip(features, least, greatest))
 
     def cost(solution: Floats) -> tuple[float, Floats]:
         level = design @ solution
@@ -48,7 +51,8 @@ def fit(tiles: Iterator[Tile]) -> Floats:
         slope = design.T @ (share - target) + _RIDGE * solution
         return float(loss.sum() + _RIDGE / 2.0 * solution @ solution), slope
 
-    return np.asarray(minimize(cost, np.zeros(design.shape[1]), jac=True, method="BFGS").x)
+    solution = minimize(cost, np.zeros(design.shape[1]), jac=True, method="BFGS").x
+    return Model(np.asarray(solution), least, greatest)
 
 
 def samples(picture: Singles, labels: NDArray[np.uint16]) -> tuple[Floats, Floats]:
@@ -83,6 +87,7 @@ def fit_likelihood(folder: Path, *, tiles: int, jobs: int) -> None:
     wanted = [Shard(part.name, FITTED, tiles) for part in PARTS]
     paths = make_shards(folder / "tiles", wanted, jobs=jobs)
     with weights_from(folder):
-        solution = fit(read_tiles(paths))
-    text = json.dumps({"coefficients": np.round(solution, 4).tolist()}, indent=1)
+        model = fit(read_tiles(paths))
+    numbers = {name: np.round(values, 4).tolist() for name, values in vars(model).items()}
+    text = json.dumps(numbers, indent=1)
     (folder / LIKELIHOOD).write_text(text + "\n")

@@ -1,6 +1,7 @@
 """How likely a node of the merge tree is a whole rock."""
 
 import json
+from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
@@ -11,30 +12,40 @@ from rockshape.segmentation.by_network.weights import LIKELIHOOD, read_weights
 
 
 def likelihood(features: Floats) -> Floats:
-    """Likelihood (n,) from 0 to 1 of features (n, k): a logistic model of them and their squares.
+    """Likelihood (n,) from 0 to 1 of features (n, k): a logistic model of them and their products.
 
-    `python -m training.likelihood` fits it to made pictures.
+    `python -m training` fits it to made pictures. A feature beyond the ends that it had there
+    counts as one at the end.
     """
-    level = terms(features) @ _coefficients(read_weights(LIKELIHOOD))
+    model = _model(read_weights(LIKELIHOOD))
+    level = terms(np.clip(features, model.least, model.greatest)) @ model.coefficients
     return np.asarray(np.exp(-np.logaddexp(0.0, -level)))
 
 
 def terms(features: Floats) -> Floats:
-    """Terms (n, 2k + 1) of the model: one, the features and their squares."""
-    return np.column_stack([np.ones(len(features)), features, features**2])
+    """Terms (n, (k + 1)(k + 2)/2) of the model: products of each two of one and the features."""
+    factors = np.column_stack([np.ones(len(features)), features])
+    one, two = np.triu_indices(factors.shape[1])
+    return np.asarray(factors[:, one] * factors[:, two])
 
 
 def features_of(tree: MergeTree) -> Floats:
-    """What speaks for each node, (nodes, 9), each about 0 to 1 in size.
+    """What speaks for each node, (nodes, 16), each about 0 to 1 in size.
 
-    Means of rock and of distance; mean border along the outline and along the seams within, and
-    the length of these over the outline's; logarithms to base 2 of the width told over the one that
-    the node has, and of the area, over 8; the area over that of the ellipse with the same moments;
-    the outline's length over that of a disc's as digitised.
+    - Means of rock, of distance and of border within, and the greatest distance.
+    - Standard deviations of rock and of the logarithm to base 2 of the width told.
+    - That logarithm less that of the width that the node has.
+    - Mean border along the outline, along the seams within, at the last of these that was joined
+      and at the next that would be.
+    - Length of the seams within and of the frame's edge, over the outline's.
+    - Logarithm to base 2 of the area, over 8; the area over that of the ellipse with the same
+      moments; the outline's length over that of a disc's as digitised.
     """
-    area, rock, distance, width, x, y, xx, xy, yy = tree.sums.T
+    area, frame, rock, rock2, border, distance, width, width2, x, y, xx, xy, yy = tree.sums.T
     safe = np.maximum(area, 1.0)
-    x, y = x / safe, y / safe
+    rock, border, distance, width, x, y = (
+        total / safe for total in (rock, border, distance, width, x, y)
+    )
     own_xx = np.maximum(xx / safe - x * x, 0.0) + 1.0 / 12.0
     own_yy = np.maximum(yy / safe - y * y, 0.0) + 1.0 / 12.0
     own_xy = xy / safe - x * y
@@ -43,12 +54,19 @@ def features_of(tree: MergeTree) -> Floats:
     rim, seam = np.maximum(tree.rim[:, 0], 1.0), np.maximum(tree.seam[:, 0], 1.0)
     return np.column_stack(
         [
-            rock / safe,
-            distance / safe,
+            rock,
+            distance,
+            border,
+            tree.top,
+            np.sqrt(np.maximum(rock2 / safe - rock * rock, 0.0)),
+            np.sqrt(np.maximum(width2 / safe - width * width, 0.0)),
+            width - np.log2(4.0 * np.sqrt(least)),
             tree.rim[:, 1] / rim,
             tree.seam[:, 1] / seam,
+            tree.joint,
+            tree.beyond,
             tree.seam[:, 0] / rim,
-            width / safe - np.log2(4.0 * np.sqrt(least)),
+            frame / rim,
             np.log2(safe) / 8.0,
             area / (4.0 * np.pi * np.sqrt(least * greatest)),
             rim / (8.0 * np.sqrt(safe / np.pi)),
@@ -56,6 +74,15 @@ def features_of(tree: MergeTree) -> Floats:
     )
 
 
+@dataclass(frozen=True, eq=False)
+class Model:
+    """Logistic model of features and their products, within the ends of the fit."""
+
+    coefficients: Floats  # ((k + 1)(k + 2)/2,)
+    least: Floats  # (k,)
+    greatest: Floats  # (k,)
+
+
 @cache
-def _coefficients(content: bytes) -> Floats:
-    return np.array(json.loads(content)["coefficients"])
+def _model(content: bytes) -> Model:
+    return Model(**{name: np.array(values) for name, values in json.loads(content).items()})

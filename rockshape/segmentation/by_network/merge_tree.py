@@ -19,9 +19,12 @@ class MergeTree:
     """Nodes 0 to n − 1 are regions 1 to n; each later one joins two earlier ones."""
 
     children: NDArray[np.intp]  # (nodes, 2), −1 of a region
-    sums: Floats  # (nodes, 9) as those of regions
+    sums: Floats  # (nodes, 13) as those of regions
+    top: Floats  # (nodes,) greatest distance
     rim: Floats  # (nodes, 2): length of the outline, and sum of border along it
     seam: Floats  # (nodes, 2): the same of all seams within
+    joint: Floats  # (nodes,) mean border of the seam that joined its parts, 0 of a region
+    beyond: Floats  # (nodes,) that of the seam at which it is joined to another, 1 where to none
 
 
 def merge_tree(regions: Regions) -> MergeTree:
@@ -33,9 +36,10 @@ def merge_tree(regions: Regions) -> MergeTree:
     count = regions.count
     most = max(2 * count - 1, 0)
     children = np.full((most, 2), -1, dtype=np.intp)
-    sums = np.zeros((most, SUMS))
-    sums[:count] = regions.sums[1:]
+    sums, top = np.zeros((most, SUMS)), np.zeros(most)
+    sums[:count], top[:count] = regions.sums[1:], regions.top[1:]
     rim, seam = np.zeros((most, 2)), np.zeros((most, 2))
+    joint, beyond = np.zeros(most), np.ones(most)
     beside = _beside(regions, rim)
     waiting = [
         (border / length, one, two)
@@ -55,6 +59,8 @@ def merge_tree(regions: Regions) -> MergeTree:
         length, border = beside[one][two]
         children[node] = one, two
         sums[node] = sums[one] + sums[two]
+        top[node] = max(top[one], top[two])
+        joint[node] = beyond[one] = beyond[two] = mean
         between = np.array([length, border])
         rim[node] = rim[one] + rim[two] - 2.0 * between
         seam[node] = seam[one] + seam[two] + between
@@ -65,7 +71,15 @@ def merge_tree(regions: Regions) -> MergeTree:
         for other, (length, border) in joined.items():
             heapq.heappush(waiting, (border / length, other, node))
     nodes = len(alive)
-    return MergeTree(children[:nodes], sums[:nodes], rim[:nodes], seam[:nodes])
+    return MergeTree(
+        children=children[:nodes],
+        sums=sums[:nodes],
+        top=top[:nodes],
+        rim=rim[:nodes],
+        seam=seam[:nodes],
+        joint=joint[:nodes],
+        beyond=beyond[:nodes],
+    )
 
 
 def _beside(regions: Regions, rim: Floats) -> list[Seams]:

@@ -12,7 +12,7 @@ from rockshape.segmentation.by_network.tops import tops
 
 ROCK = 0.35  # probability
 RISE = 0.1  # of the distance, over the greatest in the rock, above the pass to a higher top
-SUMS = 9  # of a region's pixels
+SUMS = 13  # of a region's pixels
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,7 +20,9 @@ class Regions:
     """Regions 1 to n of a picture and what can be summed over them; row 0 is the ground's."""
 
     labels: NDArray[np.int32]  # (rows, cols)
-    sums: Floats  # (n + 1, 9): pixels, rock, distance, log width, x, y, x², xy, y²
+    sums: Floats  # (n + 1, 13): pixels, at the frame, rock, rock², border, distance, log width
+    # and its square, x, y, x², xy, y²
+    top: Floats  # (n + 1,) greatest distance
     first: NDArray[np.intp]  # (seams,) the lesser region of each seam, 0 the ground
     second: NDArray[np.intp]  # (seams,)
     length: Floats  # (seams,) pairs of neighbouring pixels across it
@@ -40,25 +42,39 @@ def regions_of(answer: Answer) -> Regions:
     markers.ravel()[place] = np.arange(1, len(place) + 1)
     labels = np.asarray(watershed(-answer.distance, markers, mask=rock), dtype=np.int32)
     first, second, length, border = _seams(labels, answer.border, len(place))
-    return Regions(labels, _sums(labels, answer, len(place)), first, second, length, border)
+    sums, top = _sums(labels, answer, len(place))
+    return Regions(labels, sums, top, first, second, length, border)
 
 
-def _sums(labels: NDArray[np.int32], answer: Answer, count: int) -> Floats:
+def _sums(labels: NDArray[np.int32], answer: Answer, count: int) -> tuple[Floats, Floats]:
+    """Sums (count + 1, 13) and greatest distances (count + 1,) of the regions' pixels."""
     pixels = np.flatnonzero(labels)
     own = labels.ravel()[pixels]
-    row, col = (part.astype(np.float64) for part in np.divmod(pixels, labels.shape[1]))
+    whole_row, whole_col = np.divmod(pixels, labels.shape[1])
+    row, col = whole_row.astype(np.float64), whole_col.astype(np.float64)
+    last_row, last_col = labels.shape[0] - 1, labels.shape[1] - 1
+    rock = answer.rock.ravel()[pixels].astype(np.float64)
+    distance = answer.distance.ravel()[pixels]
+    width = np.log2(answer.width_px.ravel()[pixels].astype(np.float64))
     columns = [
         None,
-        answer.rock.ravel()[pixels],
-        answer.distance.ravel()[pixels],
-        np.log2(answer.width_px.ravel()[pixels]),
+        (row == 0) | (row == last_row) | (col == 0) | (col == last_col),
+        rock,
+        rock * rock,
+        answer.border.ravel()[pixels],
+        distance,
+        width,
+        width * width,
         col,
         row,
         col * col,
         col * row,
         row * row,
     ]
-    return np.column_stack([np.bincount(own, weights=one, minlength=count + 1) for one in columns])
+    sums = [np.bincount(own, weights=one, minlength=count + 1) for one in columns]
+    top = np.zeros(count + 1)
+    np.maximum.at(top, own, distance)
+    return np.column_stack(sums), top
 
 
 def _seams(

@@ -1,10 +1,14 @@
 """Median grain size from found grains of made beds: whether its interval covers the true one."""
 
+from dataclasses import replace
+
 import numpy as np
 from case import Case, Column, Table
 
 import rockshape
+from rockshape.method import PAPER
 from rockshape.samples.percentiles import bootstrap_percentiles, interval, percentiles
+from rockshape.samples.sample import FOUND_SD
 from synth.bed.make import make_tile
 from synth.spec.bed import convert_bed_spec
 from validation.records.object_matching import whole_and_wide
@@ -14,6 +18,7 @@ LEVEL = 0.9
 MIN_WIDTH_PX = 12.0
 MIN_GRAINS = 10  # of both, in a bed
 SIZE = "minor_axis_px"
+SIZES_ALONE = replace(PAPER, measures=())
 KINDS = {
     "beds": {},
     "packed": {"grains": {"cover": [1.6, 3.0], "median_px": [14, 28]}},
@@ -28,7 +33,7 @@ def found_sizes(*, tiles: int = 100) -> list[Table]:
     for title, keys in KINDS.items():
         size = {"width_px": 384, "height_px": 384, "seed": SEED}
         spec = convert_bed_spec({**size, **keys}, where=title)
-        ratios, widths, covered = [], [], []
+        ratios, widths, covered, counted = [], [], [], []
         for number in range(tiles):
             bed = make_tile(spec, number)
             true = _sizes(bed.image, labels=bed.labels.astype(np.int32))
@@ -38,11 +43,19 @@ def found_sizes(*, tiles: int = 100) -> list[Table]:
             median, own = (
                 percentiles(each, np.ones(len(each)), (50.0,))[0] for each in (true, found)
             )
-            draws = bootstrap_percentiles(found, 0.0, (50.0,), sd=None, draws=400)
-            low, high = interval(draws, LEVEL)[:, 0]
+            (low, high), (plain_low, plain_high) = (
+                interval(
+                    bootstrap_percentiles(
+                        found, 0.0, (50.0,), sd=None, common_sd=common, draws=400
+                    ),
+                    LEVEL,
+                )[:, 0]
+                for common in (FOUND_SD, 0.0)
+            )
             ratios.append(own / median)
             widths.append((high - low) / own)
             covered.append(low <= median <= high)
+            counted.append(plain_low <= median <= plain_high)
         rows.append(
             (
                 title,
@@ -51,6 +64,7 @@ def found_sizes(*, tiles: int = 100) -> list[Table]:
                 100 * float(np.std(ratios)),
                 100 * float(np.median(widths)),
                 100 * float(np.mean(covered)),
+                100 * float(np.mean(counted)),
             )
         )
     columns = (
@@ -60,6 +74,7 @@ def found_sizes(*, tiles: int = 100) -> list[Table]:
         Column("its spread", "%", ".1f"),
         Column("width of the 90 % interval", "%", ".0f"),
         Column("beds whose interval covers", "%", ".0f"),
+        Column("without what finding does", "%", ".0f"),
     )
     return [Table(columns, rows)]
 
@@ -68,7 +83,7 @@ def _sizes(
     image: np.ndarray, *, labels: np.ndarray | None = None, find: str | None = None
 ) -> np.ndarray:
     """Minor axes of the grains that are whole in the frame and wide enough, px."""
-    found = rockshape.measure(image, labels=labels, find=find, sizes=True, method="paper")
+    found = rockshape.measure(image, labels=labels, find=find, sizes=True, method=SIZES_ALONE)
     counts = whole_and_wide(found.labels, MIN_WIDTH_PX)
     table = found.to_frame()
     sizes = table.loc[[bool(counts[number]) for number in table["rock"]], SIZE]

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import stats
 
-from rockshape.samples.percentiles import bootstrap_percentiles, interval, percentiles
+from rockshape.samples.percentiles import interval, percentiles
 from rockshape.samples.sample import Sample
 from rockshape.samples.weighting import WEIGHTINGS
 
@@ -46,10 +46,7 @@ def compare(one: Sample, other: Sample) -> Comparison:
     medians = [
         percentiles(each.sizes, number.weights(each.sizes), (50.0,))[0] for each in (one, other)
     ]
-    draws = [
-        bootstrap_percentiles(each.sizes, number.power, (50.0,), sd=each.sds)[:, 0]
-        for each in (one, other)
-    ]
+    draws = [each.bootstrap(number.power, (50.0,))[:, 0] for each in (one, other)]
     rng = np.random.default_rng([len(one), len(other)])  # the two are drawn apart
     low, high = interval(draws[0] / rng.permutation(draws[1]))
     return Comparison(

@@ -28,12 +28,19 @@ def _of_sorted(sizes: Floats, weights: Floats, percents: Sequence[float]) -> Flo
 
 
 def bootstrap_percentiles(
-    sizes: Floats, power: float, percents: Sequence[float], *, sd: Floats | None, draws: int = DRAWS
+    sizes: Floats,
+    power: float,
+    percents: Sequence[float],
+    *,
+    sd: Floats | None,
+    common_sd: float = 0.0,
+    draws: int = DRAWS,
 ) -> Floats:
     """Percentiles (draws, k) of grains drawn with replacement, weighted by a power of their size.
 
     With `sd` (n,) each drawn size is moved by its own standard uncertainty too, so that intervals
-    take both the count and the sizes' uncertainty along. Draws depend on the number of grains only.
+    take both the count and the sizes' uncertainty along; with `common_sd` the logarithms of all
+    sizes of a draw are moved alike. Draws depend on the number of grains only.
     """
     rng = np.random.default_rng([_SEED, len(sizes)])
     order = np.argsort(sizes)
@@ -49,7 +56,7 @@ def bootstrap_percentiles(
         else:
             moved = _moved(sizes[chosen], sd[chosen], rng)
             found[draw] = percentiles(moved, (moved / sizes[-1]) ** power, percents)
-    return found
+    return np.asarray(found * np.exp(common_sd * rng.standard_normal((draws, 1))))
 
 
 def _moved(sizes: Floats, sd: Floats, rng: np.random.Generator) -> Floats:

@@ -7,7 +7,7 @@ import numpy as np
 
 from rockshape.samples.axis_ticks import log_ticks
 from rockshape.samples.form_classes import ZINGG_BOUND
-from rockshape.samples.percentiles import bootstrap_percentiles, interval, percentiles
+from rockshape.samples.percentiles import interval, percentiles
 from rockshape.samples.sample import Sample
 from rockshape.samples.weighting import Weighting
 
@@ -37,10 +37,7 @@ def _curves(axes: "Axes", samples: Mapping[str, Sample], weighting: Weighting) -
     for name, sample in samples.items():
         if len(sample) < 2:
             continue
-        draws = bootstrap_percentiles(
-            sample.sizes, weighting.power, PERCENTS, sd=sample.sds, draws=_DRAWS
-        )
-        low, high = interval(draws)
+        low, high = interval(sample.bootstrap(weighting.power, PERCENTS, draws=_DRAWS))
         middle = percentiles(sample.sizes, weighting.weights(sample.sizes), PERCENTS)
         (line,) = axes.plot(middle, PERCENTS, label=f"{name}, {len(sample)} rocks")
         axes.fill_betweenx(PERCENTS, low, high, alpha=0.2, color=line.get_color(), linewidth=0)

@@ -1,5 +1,6 @@
 """Sample: the rocks of tables that are counted, and those that are left out."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -8,6 +9,7 @@ from numpy.typing import NDArray
 
 from rockshape.numerics.arrays import Floats
 from rockshape.rock.flags import SOFT_OUTLINE
+from rockshape.samples.percentiles import DRAWS, bootstrap_percentiles
 from rockshape.samples.size_column import SizeColumn
 
 if TYPE_CHECKING:
@@ -15,6 +17,7 @@ if TYPE_CHECKING:
 
 
 AXES = ("axis_a_m", "axis_b_m", "axis_c_m")
+FOUND_SD = 0.06  # of the logarithm of a percentile, where rocks are found in a picture alone
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,6 +32,23 @@ class Sample:
 
     def __len__(self) -> int:
         return len(self.sizes)
+
+    @property
+    def found_sd(self) -> float:
+        """Standard deviation of a percentile's logarithm that comes from finding the rocks.
+
+        It is `FOUND_SD` times the share of rocks whose outline is soft.
+        """
+        return FOUND_SD * float(self._soft.mean()) if len(self) else 0.0
+
+    def bootstrap(self, power: float, percents: Sequence[float], *, draws: int = DRAWS) -> Floats:
+        """Percentiles (draws, k) of the sizes, weighted by a power of them, of rocks drawn again.
+
+        What finding the rocks does to sizes moves all percentiles of a draw alike.
+        """
+        return bootstrap_percentiles(
+            self.sizes, power, percents, sd=self.sds, common_sd=self.found_sd, draws=draws
+        )
 
     @property
     def half_axes_m(self) -> Floats:
@@ -56,7 +76,7 @@ class Sample:
         """Which rocks (n,) are flagged to have a soft outline."""
         if "flags" not in self.table:
             return np.zeros(len(self.table), dtype=bool)
-        flags = self.table["flags"].fillna("").astype(str)
+        flags = self.table["flags"].astype(str)
         return flags.str.contains(SOFT_OUTLINE, regex=False).to_numpy(bool)
 
 

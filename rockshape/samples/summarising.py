@@ -4,7 +4,7 @@ from rockshape.samples import form_classes
 from rockshape.samples.abundance import Abundance, fit_abundance
 from rockshape.samples.folk_ward import PERCENTS as FOLK_WARD_PERCENTS
 from rockshape.samples.folk_ward import folk_ward
-from rockshape.samples.percentiles import PERCENTS, bootstrap_percentiles, interval, percentiles
+from rockshape.samples.percentiles import PERCENTS, interval, percentiles
 from rockshape.samples.sample import Sample
 from rockshape.samples.summary import Distribution, Summary
 from rockshape.samples.weighting import WEIGHTINGS, Weighting
@@ -33,8 +33,7 @@ def summary_of(
 
 
 def _distribution(sample: Sample, weighting: Weighting) -> Distribution:
-    draws = bootstrap_percentiles(sample.sizes, weighting.power, PERCENTS, sd=sample.sds)
-    low, high = interval(draws)
+    low, high = interval(sample.bootstrap(weighting.power, PERCENTS))
     weights = weighting.weights(sample.sizes)
     graphic = None
     if sample.column.unit == "mm":

@@ -84,6 +84,8 @@ class Summary:
                 f"{word} {100 * share:.0f} %" for word, share in shares.items() if share
             )
             yield f"  {scheme} ({_counted(self.classified[scheme])}): {told}"
+        if self.distributions and sample.found_sd:
+            yield f"  intervals of size take along {sample.found_sd:.0%} for finding the rocks"
         if sample.soft_outlines:
             yield f"  roundness of {_counted(sample.soft_outlines)} with a soft outline left out"
         if self.abundance is not None:
@@ -108,6 +110,7 @@ class Summary:
                 for scheme, shares in self.classes.items()
             },
             "soft_outlines": sample.soft_outlines,
+            "found_sd": sample.found_sd,
         }
         if self.abundance is not None:
             fit = self.abundance

@@ -74,3 +74,10 @@ def test_uncertain_sizes_widen_the_interval_and_certain_ones_do_not() -> None:
     vague = np.ptp(interval(bootstrap_percentiles(sizes, 2.0, (84.0,), sd=0.8 * sizes)))
     assert certain == pytest.approx(plain, rel=0.3)  # of other draws
     assert vague > 1.5 * plain
+
+
+def test_what_moves_all_sizes_alike_widens_intervals_by_its_own_spread() -> None:
+    sizes = even_lognormal(100_001)  # so many that counting tells next to nothing
+    draws = bootstrap_percentiles(sizes, 0.0, (16.0, 84.0), sd=None, common_sd=0.1, draws=2000)
+    assert np.std(np.log(draws), axis=0) == pytest.approx(0.1, rel=0.05)
+    assert np.corrcoef(np.log(draws).T)[0, 1] > 0.99

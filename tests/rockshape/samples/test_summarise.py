@@ -11,6 +11,7 @@ import rockshape
 from rockshape import InputError
 from rockshape.cli import main
 from rockshape.samples import summarise
+from rockshape.samples.sample import FOUND_SD
 
 
 def table(median: float, count: int = 400, *, seed: int = 0) -> pd.DataFrame:
@@ -67,6 +68,23 @@ def test_two_tables_are_compared(files, capsys) -> None:
     assert told["ks_p"] < 1e-6
     assert run(files[0], "--group", "site", "--compare", "--json") == 0
     assert json.loads(capsys.readouterr().out)["comparison"]["ks_p"] > 0.01
+
+
+def test_rocks_found_in_a_picture_have_wider_intervals(capsys, tmp_path: Path) -> None:
+    own = table(10)
+    widths = []
+    for name, flags in (("masks", None), ("found", "soft outline")):
+        path = tmp_path / f"{name}.csv"
+        own.assign(flags=flags).to_csv(path, index=False)
+        assert run(path, "--json") == 0
+        told = json.loads(capsys.readouterr().out)["groups"][path.name]
+        assert told["found_sd"] == (0.0 if flags is None else FOUND_SD)
+        d50 = told["distributions"]["number"]["d50"]
+        widths.append(np.log(d50["high"] / d50["low"]))
+        assert run(path) == 0
+        assert ("for finding the rocks" in capsys.readouterr().out) == (flags is not None)
+    # 95 % of a normal distribution, whose variances add
+    assert widths[1] == pytest.approx(np.hypot(widths[0], 2 * 1.96 * FOUND_SD), rel=0.1)
 
 
 def test_half_axes_are_doubled_and_metres_are_millimetres() -> None:

@@ -79,6 +79,25 @@ TARGETS = (
         )
         for words, step in (("3", "3"), ("4.5", "4p5"), ("7", "7"))
     ),
+    Target("yard", "angularity_2d over views: CV", "yard.robust.angularity_2d.cv", 0.08),
+    _least(
+        "yard",
+        "angularity_2d over views: pairs in order",
+        "yard.robust.angularity_2d.pairs_across",
+        0.96,
+    ),
+    Target(
+        "yard",
+        "sphericity_3d of made rocks, exact range: RMS error",
+        "form.robust.sphericity_3d.error",
+        0.03,
+    ),
+    _least(
+        "yard",
+        "sphericity_3d of made rocks, exact range: order, τ",
+        "form.robust.sphericity_3d.tau",
+        0.86,
+    ),
     *(target for height_deg in (15, 32, 55) for target in _scans(height_deg)),
     Target(
         "fused",

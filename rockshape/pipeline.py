@@ -212,7 +212,7 @@ def _rock(
         readings=readings,
         descriptors=descriptors if asked.descriptors else None,
         sizes=_sizes(view, descriptors, scene.observation) if asked.sizes else None,
-        observables=_observables(view, method, readings, visible=visible),
+        observables=_observables(view, method, visible=visible),
     )
     return _estimated(_flagged(rock, view, method, scene), method)
 
@@ -228,17 +228,14 @@ def _flagged(rock: Rock, view: RockView, method: Method, scene: _Scene) -> Rock:
     return replace(rock, flags=tuple(dict.fromkeys(flags)))
 
 
-def _observables(
-    view: RockView, method: Method, readings: dict[str, Reading], *, visible: float
-) -> Observables | None:
+def _observables(view: RockView, method: Method, *, visible: float) -> Observables | None:
     """What the errors of a rock's values depend on; None where they are not estimated.
 
     They are not where the frame cuts the rock, nor where the method has no error model.
     """
     if method.errors is None or view.truncated:
         return None
-    values = {name: reading.value for name, reading in readings.items()}
-    return observe(view, values, visible_fraction=visible)
+    return observe(view, visible_fraction=visible)
 
 
 def _estimated(rock: Rock, method: Method) -> Rock:

@@ -9,7 +9,7 @@ from results import load_results
 mpl.use("Agg")
 from matplotlib import pyplot as plt
 
-COLOURS = ("#0072B2", "#E69F00", "#D55E00")
+COLOURS = ("#0072B2", "#D55E00")
 GOAL = (0.86, 0.94)
 
 
@@ -25,7 +25,7 @@ def draw(folder: Path) -> None:
     right.plot([0, 1], [0, 1], color="0.4", lw=0.8)
     for number, (one, colour) in enumerate(zip(levels.columns[1:], COLOURS, strict=False)):
         own = values[values["rocks"] == one]
-        place = [names.index(name) + 0.18 * (number - 1) for name in own["value"]]
+        place = [names.index(name) + 0.18 * (number - 0.5) for name in own["value"]]
         left.plot(place, own["coverage"], "o", color=colour, ms=5, label=one)
         right.plot(levels.iloc[:, 0], levels[one], "o-", color=colour, ms=4, lw=1.2, label=one)
     left.set_xticks(range(len(names)), [name.strip("`") for name in names], rotation=50, ha="right")

@@ -9,6 +9,7 @@ from types import MappingProxyType
 import msgspec
 import numpy as np
 
+from rockshape.numerics.arrays import Floats
 from rockshape.uncertainty.observables import NAMES, Observables
 
 FILE = "error_model.json"
@@ -16,40 +17,55 @@ FILE = "error_model.json"
 
 @dataclass(frozen=True)
 class ErrorModel:
-    """Middle and scale of a measure's errors, and quantiles of what is left over that scale.
+    """Scale of a measure's errors, and quantiles of the errors over that scale.
 
-    Of a rock's features f, each held within the range that the fit has seen, the middle is
-    shift · f and the scale exp(coefficients · f). With `relative` the errors are of the value's
-    logarithm. `python -m training.uncertainty` fits them to made rocks.
+    Errors are those of a power of the value, of that in which they add: the square of a root mean
+    square, say, or the logarithm where the power is 0. So the low end of an interval falls to 0 as
+    the value comes near what noise alone gives. Of a rock's features f, each held within the range
+    that the fit has seen, the scale is exp(coefficients · f). `python -m training.uncertainty` fits
+    them to made rocks.
     """
 
     coefficients: tuple[float, ...]
-    shift: tuple[float, ...]
     least: tuple[float, ...]  # of each feature in the fit
     most: tuple[float, ...]
-    low: float  # 5 % quantile of (value - truth - middle) over the scale
+    low: float  # 5 % quantile of (value^power - truth^power) over the scale
     high: float  # 95 % quantile
     sd: float  # root mean square of the middle 98 % of them
-    relative: bool = False
+    power: int  # 0: the logarithm
+    floor: float  # value below which the scale falls no further
 
-    def middle_and_scale(self, observables: Observables) -> tuple[float, float]:
-        """Middle and scale of the error for a rock."""
-        features = np.clip(observables.features(), self.least, self.most)
-        return float(features @ self.shift), float(np.exp(features @ self.coefficients))
+    def features(self, value: float, observables: Observables) -> Floats:
+        """Features of a value's error, before they are held within those of the fit."""
+        level = float(np.log(np.hypot(value, self.floor))) if self.power else 0.0
+        return observables.features(level)
+
+    def scale(self, value: float, observables: Observables) -> float:
+        """Scale of the error for a rock."""
+        held = np.clip(self.features(value, observables), self.least, self.most)
+        return float(np.exp(held @ self.coefficients))
 
     def interval(self, value: float, observables: Observables) -> tuple[float, float]:
         """Low and high end of the 90 % interval of the true value; the value lies within."""
-        middle, scale = self.middle_and_scale(observables)
-        over, under = max(middle + scale * self.high, 0.0), min(middle + scale * self.low, 0.0)
-        if self.relative:
-            return value * float(np.exp(-over)), value * float(np.exp(-under))
-        return value - over, value - under
+        scale = self.scale(value, observables)
+        return self._moved(value, -scale * max(self.high, 0.0)), self._moved(
+            value, -scale * min(self.low, 0.0)
+        )
 
     def deviation(self, value: float, observables: Observables) -> float:
-        """Root mean square of the error."""
-        middle, scale = self.middle_and_scale(observables)
-        sd = float(np.hypot(middle, scale * self.sd))
-        return abs(value) * sd if self.relative else sd
+        """Standard deviation: half of what one of the power spans, up and down from the value."""
+        step = self.scale(value, observables) * self.sd
+        return (self._moved(value, step) - self._moved(value, -step)) / 2.0
+
+    def powered(self, values: Floats) -> Floats:
+        """Values, none below 0, in the power in which their errors add."""
+        return np.asarray(np.log(values) if self.power == 0 else values**self.power)
+
+    def _moved(self, value: float, step: float) -> float:
+        """Value, from 0, whose power is a step farther than that of another."""
+        if self.power == 0:
+            return value * float(np.exp(step))
+        return float(max(value**self.power + step, 0.0) ** (1.0 / self.power))
 
 
 class _File(msgspec.Struct):
@@ -62,7 +78,15 @@ class _File(msgspec.Struct):
 @cache
 def read_error_model() -> Mapping[str, ErrorModel]:
     """Error models of the package, by the columns of measures and axes."""
-    told = msgspec.json.decode((files(__package__) / FILE).read_bytes(), type=_File)
+    return decode_models((files(__package__) / FILE).read_bytes(), where=FILE)
+
+
+def decode_models(content: bytes, *, where: str) -> Mapping[str, ErrorModel]:
+    """Error models from the content of a file that `python -m training.uncertainty` wrote.
+
+    Raises: ValueError for models of other features.
+    """
+    told = msgspec.json.decode(content, type=_File)
     if told.features != NAMES:
-        raise ValueError(f"{FILE}: expected the features {NAMES}, found {told.features}")
+        raise ValueError(f"{where}: expected the features {NAMES}, found {told.features}")
     return MappingProxyType(told.models)

@@ -1,6 +1,7 @@
-"""Fit of error models: middle and scale by the observables, quantiles on families left out."""
+"""Fit of error models: scale by the observables, quantiles on families left out."""
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -14,58 +15,81 @@ from rockshape.uncertainty import COVERAGE, ErrorModel
 from rockshape.uncertainty.observables import NAMES
 from training.uncertainty.table import observables_of
 
+LEFT_OUT = Path(__file__).parents[2] / "benchmarks" / "uncertainty_left_out.json"
 FEWEST = 100  # errors, below which a value gets no model
 OUTER = 0.02  # quantile at which features are held
+# power of a value in which its errors add, where it is not the value's own: root mean squares, to
+# which the pixels add theirs, and axes, which have logarithms
+POWERS = {"ellipse_error": 2, "angularity_2d": 2} | dict.fromkeys(AXES, 0)
+_FLOOR = 0.05  # of the median value, below which the scale falls no further
 _RIDGE = 1e-3
-_ROUND = 0.05  # of the scale, within which an error's loss is round
+_ROUND = 0.02  # of the mean error, below which the scale falls no further
 _ROUNDS = 200
 
 
+class Errors(NamedTuple):
+    """Errors of a value's power, n of them, with what they depend on."""
+
+    error: Floats  # (n,)
+    features: Floats  # (n, k)
+    family: NDArray[np.object_]  # (n,)
+
+    def where(self, chosen: NDArray[np.bool_]) -> "Errors":
+        """Those that are chosen, (n,)."""
+        return Errors(self.error[chosen], self.features[chosen], self.family[chosen])
+
+
 class Solution(NamedTuple):
-    """Middle and scale of errors by features, and the ends within which features are held."""
+    """Scale of errors by features, and the ends within which features are held."""
 
     coefficients: Floats
-    shift: Floats
     least: Floats
     most: Floats
 
-    def over(self, error: Floats, features: Floats) -> Floats:
-        """Errors (n,) less their middle, over their scale."""
-        held = np.clip(features, self.least, self.most)
-        return np.asarray((error - held @ self.shift) / np.exp(held @ self.coefficients))
+    def over(self, errors: Errors) -> Floats:
+        """Errors (n,) over their scale."""
+        held = np.clip(errors.features, self.least, self.most)
+        return np.asarray(errors.error / np.exp(held @ self.coefficients))
 
 
 def fit_models(pairs: pd.DataFrame) -> dict[str, ErrorModel]:
     """Error model of each value that has errors enough.
 
-    Middle and scale are those of a Laplace distribution of greatest likelihood on all rows. The
-    interval's ends are quantiles of errors over the scale, each row's fitted to the other
-    families: they cover what the fit does not explain of a family that it has not seen.
+    The scale is that of a Laplace distribution of greatest likelihood on all rows. The interval's
+    ends are quantiles of errors over the scale, each row's fitted to the other families: they
+    cover what the fit does not explain of a family that it has not seen.
     Source: Dunn, Wasserman and Ramdas (2023), Distribution-free prediction sets for two-layer
     hierarchical models.
     """
     models = {}
     for name in value_names(pairs):
-        relative = name in AXES
-        error, features, family = errors(pairs, name, relative=relative)
-        if len(error) < FEWEST:
+        known = known_pairs(pairs, name)
+        if len(known) < FEWEST:
             continue
-        solution = _fit(error, features)
-        over = np.sort(_left_out(error, features, family))
+        floor = _short(_FLOOR * float(known[f"value_{name}"].median()))
+        blank = _blank(POWERS.get(name, 1), floor)
+        errors = errors_of(known, name, blank)
+        solution = _fit(errors)
+        over = np.sort(_left_out(errors))
         tail = (1 - COVERAGE) / 2
         rank = max(int(np.floor((len(over) + 1) * tail)), 1)
         inner = over[np.abs(over) <= np.quantile(np.abs(over), 0.98)]
         models[name] = ErrorModel(
             coefficients=_numbers(solution.coefficients),
-            shift=_numbers(solution.shift),
             least=_numbers(solution.least),
             most=_numbers(solution.most),
             low=_short(over[rank - 1]),
             high=_short(over[-rank]),
             sd=_short(np.sqrt(np.mean(inner**2))),
-            relative=relative,
+            power=blank.power,
+            floor=floor,
         )
     return models
+
+
+def left_out_models(pairs: pd.DataFrame) -> dict[str, dict[str, ErrorModel]]:
+    """Error models by family, fitted to all others."""
+    return {own: fit_models(pairs[pairs["family"] != own]) for own in pairs["family"].unique()}
 
 
 def value_names(table: pd.DataFrame) -> list[str]:
@@ -73,61 +97,63 @@ def value_names(table: pd.DataFrame) -> list[str]:
     return [name.removeprefix("value_") for name in map(str, table) if name.startswith("value_")]
 
 
-def errors(
-    table: pd.DataFrame, name: str, *, relative: bool
-) -> tuple[Floats, Floats, NDArray[np.object_]]:
-    """Errors (n,) of a value where both it and its truth are known, features (n, k), families."""
-    value, truth = table[f"value_{name}"].to_numpy(), table[f"truth_{name}"].to_numpy()
-    known = np.isfinite(value) & np.isfinite(truth)
-    value, truth = value[known], truth[known]
-    error = np.log(value / truth) if relative else value - truth
-    return error, features_of(table[known]), table["family"].to_numpy(dtype=object)[known]
+def known_pairs(table: pd.DataFrame, name: str) -> pd.DataFrame:
+    """Rows of a table of pairs where both a value and its truth are known."""
+    return table[np.isfinite(table[f"value_{name}"]) & np.isfinite(table[f"truth_{name}"])]
 
 
-def features_of(table: pd.DataFrame) -> Floats:
-    """Features (n, k) of the rocks of a table of pairs."""
-    rows = [seen.features() for seen in observables_of(table)]
-    return np.array(rows).reshape(-1, len(NAMES))
+def errors_of(known: pd.DataFrame, name: str, model: ErrorModel) -> Errors:
+    """Errors of a value in the power of its model, from rows that know both it and its truth."""
+    value, truth = known[f"value_{name}"].to_numpy(), known[f"truth_{name}"].to_numpy()
+    rows = [
+        model.features(one, seen) for one, seen in zip(value, observables_of(known), strict=True)
+    ]
+    return Errors(
+        error=model.powered(value) - model.powered(truth),
+        features=np.array(rows).reshape(-1, len(NAMES)),
+        family=known["family"].to_numpy(dtype=object),
+    )
 
 
-def _left_out(error: Floats, features: Floats, family: NDArray[np.object_]) -> Floats:
+def _blank(power: int, floor: float) -> ErrorModel:
+    """Model before its fit."""
+    none = (0.0,) * len(NAMES)
+    return ErrorModel(none, none, none, low=0.0, high=0.0, sd=0.0, power=power, floor=floor)
+
+
+def _left_out(errors: Errors) -> Floats:
     """Errors (n,) over their scale, each by the fit to all other families."""
-    over = np.empty_like(error)
-    for own in np.unique(family):
-        left = family == own
-        over[left] = _fit(error[~left], features[~left]).over(error[left], features[left])
+    over = np.empty_like(errors.error)
+    for own in np.unique(errors.family):
+        left = errors.family == own
+        over[left] = _fit(errors.where(~left)).over(errors.where(left))
     return over
 
 
-def _fit(error: Floats, features: Floats) -> Solution:
-    """Middle and scale of greatest likelihood, each drawn a little towards one for all rocks."""
+def _fit(errors: Errors) -> Solution:
+    """Scale of greatest likelihood, drawn a little towards one for all rocks."""
+    error, features = errors.error, errors.features
     least, most = np.quantile(features, [OUTER, 1 - OUTER], axis=0)
     held = np.clip(features, least, most)
     mean, spread = held.mean(axis=0), held.std(axis=0)
     mean[0], spread[spread == 0] = 0.0, 1.0
     even = (held - mean) / spread
-    size = max(float(np.median(np.abs(error))), 1e-9)
-    count = features.shape[1]
+    size = float(np.mean(np.abs(error)))
+    loss = np.hypot(error / size, _ROUND)
 
     def cost(solution: Floats) -> tuple[float, Floats]:
-        level, middle = even @ solution[:count], even @ solution[count:]
-        over = (error / size - middle) * np.exp(-level)
-        loss = np.hypot(over, _ROUND)
-        slope = over / loss
+        level = even @ solution
+        over = loss * np.exp(-level)
         pull = _RIDGE * solution
         pull[0] = 0.0
-        by_level = (1 - slope * over) @ even / len(error)
-        by_middle = -(slope * np.exp(-level)) @ even / len(error)
-        value = np.mean(level + loss) + pull @ solution / 2
-        return float(value), np.concatenate([by_level, by_middle]) + pull
+        slope = (1 - over) @ even / len(error)
+        return float(np.mean(level + over) + pull @ solution / 2), slope + pull
 
-    found = minimize(
-        cost, np.zeros(2 * count), jac=True, method="L-BFGS-B", options={"maxiter": _ROUNDS}
-    ).x
-    coefficients, shift = found[:count] / spread, size * found[count:] / spread
+    start = np.zeros(features.shape[1])
+    found = minimize(cost, start, jac=True, method="L-BFGS-B", options={"maxiter": _ROUNDS}).x
+    coefficients = found / spread
     coefficients[0] += np.log(size) - coefficients[1:] @ mean[1:]
-    shift[0] -= shift[1:] @ mean[1:]
-    return Solution(coefficients, shift, least, most)
+    return Solution(coefficients, least, most)
 
 
 def _numbers(every: Floats) -> tuple[float, ...]:

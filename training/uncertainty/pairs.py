@@ -1,26 +1,30 @@
 """Made rocks seen by a coarse camera and by a fine one, and what each says of them."""
 
-import pickle
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
 import rockshape
 from rockshape.measurement import AXES, Rock
 from rockshape.method import ROBUST
 from rockshape.uncertainty.observables import Observables
 from synth.camera.trajectories import camera_of
+from synth.dataset.files import plain
+from synth.dataset.shape_truth import scene_gt_shape
+from synth.dataset.write import capture_frame
 from synth.errors import SpecError
-from synth.handle.jobs import ViewParts, render
 from synth.handle.truth import truth_table
-from synth.scene.scene import build_scene
+from synth.light import Stage, spec_stage
+from synth.render import choose_backend, open_renderer
+from synth.render.view import RenderedView
+from synth.scene.scene import SceneModel, build_scene
+from synth.sensor import Capture
 from synth.spec import SceneSpec, convert_spec
 
-TAUGHT = (
+FAMILIES = (
     "rounded-polyhedron",
     "realistic",
     "superellipsoid",
@@ -29,13 +33,18 @@ TAUGHT = (
     "dented",
     "slab",
     "rounded-box",
+    "broken",
+    "vesicular",
+    "ellipsoid",
 )
-HELD_OUT = ("broken", "vesicular", "ellipsoid")
 FINE = "mer-pancam"
+NOISE = "stereo"
 CAMERAS = ("mer-navcam", "msl-navcam", "mer-hazcam", "imp")
-NOISES = ("none", "stereo")
+UNESTIMATED = replace(ROBUST, errors=dict)  # without the error models that are to be fitted
 VIEWS = 2
-ROCKS = 3
+ROCKS = ((0.05, 4), (np.inf, 2))  # in the fine camera's frame, by their size over the distance
+WORN = (0.0, 1.0)  # abrasion of the rocks of every third scene of a family: fresh to smooth
+OWN_WEAR = "realistic"  # family that has a wear of its own
 # columns of the truth that are the same quantity as a value
 OF_ROCK = {
     "sphericity_3d": "maximum_projection_sphericity",
@@ -64,22 +73,19 @@ class Pair:
 
 
 def made_pairs(
-    seed: int,
-    scenes: Iterable[int],
-    families: Sequence[str],
-    *,
-    scans: Sequence[str] = (),
-    worn: tuple[float, float] | None = None,
+    seed: int, scenes: Iterable[int], families: Sequence[str], *, scans: Sequence[str] = ()
 ) -> Iterator[Pair]:
-    """Yield the rocks of scenes of a seed, each from two sides and with each noise.
+    """Yield the rocks of scenes of a seed, each from two sides, on exact and on noisy range.
 
-    What is measured by a fine camera from the same place, on exact range, stands for the truth
-    where a quantity has none of its own, and for that of an outline which the ground cuts.
-    worn is the range of the abrasion that wears the rocks.
+    Families take turns, and the rocks of every third scene of a family are worn. What is measured
+    by a fine camera from the same place, on exact range, stands for the truth where a quantity has
+    none of its own, and for that of an outline which the ground cuts.
     """
     for scene in scenes:
+        turn, which = divmod(scene, len(families))
         rng = np.random.default_rng([seed, 90, scene])
-        spec, camera = _spec(rng, seed * 1000 + scene, families, scans, worn)
+        worn = turn % 3 == 1 and not scans
+        spec, camera = _spec(rng, seed * 1000 + scene, families[which], scans, worn=worn)
         try:
             yield from _pairs(scene, spec, camera)
         except SpecError:  # no room for the rocks
@@ -89,24 +95,27 @@ def made_pairs(
 def _spec(
     rng: np.random.Generator,
     seed: int,
-    families: Sequence[str],
+    family: str,
     scans: Sequence[str],
-    worn: tuple[float, float] | None,
+    *,
+    worn: bool,
 ) -> tuple[SceneSpec, str]:
     """Scene as the fine camera sees it, and the coarse camera."""
     distance_m = float(np.exp(rng.uniform(np.log(1.5), np.log(7.0))))
-    size_m = distance_m * float(rng.uniform(0.02, 0.085))
+    size = float(rng.uniform(0.02, 0.085))  # over the distance
     rocks: dict[str, Any] = {
-        "count": ROCKS,
-        "family": str(rng.choice(families)),
+        "count": next(count for most, count in ROCKS if size < most),
+        "family": family,
         "series": "random",
         "spacing": 1.2,
-        "diameter_m": [size_m, 1.4 * size_m],
+        "diameter_m": [size * distance_m, 1.4 * size * distance_m],
     }
     if scans:
         rocks |= {"family": "scan", "scans": list(scans)}
-    if worn is not None:
-        rocks["abrasion"] = list(worn)
+    if worn and family == OWN_WEAR:
+        rocks["realism"] = {"abrasion": list(WORN)}
+    elif worn:
+        rocks["abrasion"] = list(WORN)
     burial = [0.0, 0.4] if rng.uniform() < 0.3 else [0.0, 0.0]
     table = {
         "seed": seed,
@@ -125,31 +134,43 @@ def _spec(
 
 
 def _pairs(scene: int, fine: SceneSpec, camera: str) -> Iterator[Pair]:
-    coarse = _with_camera(fine, camera)
-    model = build_scene(fine, 0)
-    seen_far = replace(model, camera=camera_of(coarse.camera))
-    for view in range(VIEWS):
-        near = render(fine, 0, view, pickle.dumps(model))
-        reference = {rock.number: rock for rock in _measured(near, fine, near.exact_depth_m)}
-        for noise in NOISES:
-            spec = _with_noise(coarse, noise)
-            far = render(spec, 0, view, pickle.dumps(seen_far))
-            truth = truth_table(far.rocks, far.visible).set_index("id").to_dict("index")
-            for rock in _measured(far, spec, far.depth_m):
-                told = truth[rock.number]
-                if told["visible_fraction"] < LEAST_SEEN or rock.observables is None:
+    coarse = _noisy(_with_camera(fine, camera))
+    near = build_scene(fine, 0)
+    far = replace(near, camera=camera_of(coarse.camera))
+    stage = spec_stage(fine, 0, near)
+    reference = [_measured(fine, *taken) for taken in _views(fine, near, stage)]
+    taken = list(_views(coarse, far, stage))
+    truth = plain(scene_gt_shape(far, 1, [view.sight() for view, _ in taken]))
+    for number, (view, capture) in enumerate(taken):
+        seen = truth["views"][str(number)]
+        told = truth_table(truth["rocks"], seen).set_index("id").to_dict("index")
+        known = {rock.number: rock for rock in reference[number]}
+        for noise, depth_m in (("none", view.depth_m), (NOISE, capture.depth_m)):
+            noisy = replace(capture, depth_m=depth_m)
+            for rock in _measured(coarse, view, noisy):
+                own = told[rock.number]
+                if own["visible_fraction"] < LEAST_SEEN or rock.observables is None:
                     continue
                 yield Pair(
                     scene=scene,
-                    family=str(told["family"]),
+                    family=str(own["family"]),
                     camera=camera,
                     noise=noise,
-                    distance_m=float(told["depth_m"]),
-                    buried=float(told["buried_fraction"]),
+                    distance_m=float(own["depth_m"]),
+                    buried=float(own["buried_fraction"]),
                     values=rock.quantities,
-                    truths=_truths(told, reference.get(rock.number)),
+                    truths=_truths(own, known.get(rock.number)),
                     observables=rock.observables,
                 )
+
+
+def _views(
+    spec: SceneSpec, scene: SceneModel, stage: Stage
+) -> Iterator[tuple[RenderedView, Capture]]:
+    """Yield each view of a scene, exact and as the sensor takes it."""
+    renderer = open_renderer(choose_backend(spec.renderer), stage, scene.camera)
+    for number in range(VIEWS):
+        yield capture_frame(spec, 0, number, scene=scene, stage=stage, renderer=renderer)
 
 
 def _with_camera(spec: SceneSpec, preset: str) -> SceneSpec:
@@ -157,19 +178,18 @@ def _with_camera(spec: SceneSpec, preset: str) -> SceneSpec:
     return msgspec.structs.replace(spec, camera=msgspec.structs.replace(spec.camera, preset=preset))
 
 
-def _with_noise(spec: SceneSpec, kind: str) -> SceneSpec:
-    """Specification with another range sensor."""
-    return msgspec.structs.replace(spec, noise=msgspec.structs.replace(spec.noise, kind=kind))
+def _noisy(spec: SceneSpec) -> SceneSpec:
+    """Specification with the noisy range sensor."""
+    return msgspec.structs.replace(spec, noise=msgspec.structs.replace(spec.noise, kind=NOISE))
 
 
-def _measured(
-    parts: ViewParts, spec: SceneSpec, depth_m: NDArray[np.floating]
-) -> rockshape.Measurement:
+def _measured(spec: SceneSpec, view: RenderedView, capture: Capture) -> rockshape.Measurement:
     return rockshape.measure(
-        parts.image,
-        range_m=depth_m,
+        capture.picture,
+        range_m=capture.depth_m,
         camera=camera_of(spec.camera),
-        labels=parts.labels,
+        labels=view.labels,
+        method=UNESTIMATED,
     )
 
 

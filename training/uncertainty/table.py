@@ -15,14 +15,13 @@ from training.uncertainty.pairs import made_pairs
 
 @dataclass(frozen=True)
 class PairSet:
-    """Scenes to be made: their seed, number and families, or scans in their place, and wear."""
+    """Scenes to be made: their seed, number and families, or scans in their place."""
 
     name: str
     seed: int
     scenes: int
     families: Sequence[str]
     scans: Sequence[str] = ()
-    worn: tuple[float, float] | None = None  # range of abrasion
 
 
 def pair_table(wanted: PairSet, *, jobs: int = 1) -> pd.DataFrame:
@@ -42,7 +41,7 @@ def observables_of(table: pd.DataFrame) -> list[Observables]:
 
 def _rows(wanted: PairSet, scenes: Iterable[int]) -> list[dict[str, Any]]:
     rows: list[dict[str, Any]] = []
-    made = made_pairs(wanted.seed, scenes, wanted.families, scans=wanted.scans, worn=wanted.worn)
+    made = made_pairs(wanted.seed, scenes, wanted.families, scans=wanted.scans)
     for pair in made:
         row = dataclasses.asdict(pair)
         for kind, name in (("values", "value"), ("truths", "truth"), ("observables", "seen")):

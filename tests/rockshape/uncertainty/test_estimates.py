@@ -10,20 +10,20 @@ from rockshape.method import PAPER, ROBUST
 from rockshape.uncertainty import ErrorModel, Observables, read_error_model
 from rockshape.uncertainty.observables import NAMES
 
-MIDDLE = Observables(width_px=64.0, noise=0.0, hidden=0.0, departure=0.05)
+MIDDLE = Observables(width_px=64.0, noise=0.0, hidden=0.0)
 
 
-def model(*, shift: float = 0.0, relative: bool = False, **changed: float) -> ErrorModel:
+def model(*, power: int = 1, **changed: float) -> ErrorModel:
     coefficients = dict.fromkeys(NAMES, 0.0) | {"one": np.log(0.1)} | changed
     return ErrorModel(
         tuple(coefficients.values()),
-        shift=(shift, *[0.0] * (len(NAMES) - 1)),
-        least=(1.0, *[-0.5] * (len(NAMES) - 1)),
+        least=(1.0, -0.5, 0.0, 0.0, -3.0),
         most=(1.0,) * len(NAMES),
         low=-1.0,
         high=2.0,
         sd=1.0,
-        relative=relative,
+        power=power,
+        floor=0.01,
     )
 
 
@@ -32,34 +32,41 @@ def test_an_interval_takes_the_errors_quantiles_off_the_value() -> None:
     assert model().deviation(0.5, MIDDLE) == pytest.approx(0.1)
 
 
-def test_an_interval_takes_the_middle_of_the_errors_off_and_keeps_the_value() -> None:
-    assert model(shift=0.05).interval(0.5, MIDDLE) == pytest.approx((0.25, 0.55))
-    assert model(shift=0.3).interval(0.5, MIDDLE) == pytest.approx((0.0, 0.5))
-    assert model(shift=0.3).deviation(0.5, MIDDLE) == pytest.approx(np.hypot(0.3, 0.1))
+def test_errors_of_a_square_widen_the_interval_of_a_small_value() -> None:
+    squared = model(power=2)
+    assert squared.interval(0.5, MIDDLE) == pytest.approx(np.sqrt([0.25 - 0.2, 0.25 + 0.1]))
+    assert squared.interval(0.2, MIDDLE) == pytest.approx((0.0, np.sqrt(0.04 + 0.1)))
+    span = np.sqrt(0.25 + 0.1) - np.sqrt(0.25 - 0.1)
+    assert squared.deviation(0.5, MIDDLE) == pytest.approx(span / 2)
+    assert model(power=3).interval(1.0, MIDDLE) == pytest.approx((0.8 ** (1 / 3), 1.1 ** (1 / 3)))
+    assert np.isfinite([*squared.interval(0.0, MIDDLE), squared.deviation(0.0, MIDDLE)]).all()
+
+
+def test_the_scale_follows_the_value_down_to_the_floor() -> None:
+    follows = model(value=1.0)
+    assert follows.scale(0.4, MIDDLE) / follows.scale(0.2, MIDDLE) == pytest.approx(2, rel=0.01)
+    assert follows.scale(0.001, MIDDLE) == pytest.approx(follows.scale(0.0, MIDDLE), rel=0.01)
 
 
 def test_features_beyond_the_fits_count_as_those_at_its_end() -> None:
     def scale(width_px: float) -> float:
-        seen = Observables(width_px=width_px, noise=0.0, hidden=0.0, departure=0.05)
-        return model(width=2.0).middle_and_scale(seen)[1]
+        return model(width=2.0).scale(0.5, Observables(width_px, noise=0.0, hidden=0.0))
 
     assert scale(32.0) == pytest.approx(0.1 * np.exp(-1.0))  # the fit's end
     assert scale(8.0) == scale(32.0)
     assert scale(45.0) > scale(32.0)
 
 
-def test_a_relative_interval_is_one_of_factors() -> None:
-    relative = model(relative=True)
+def test_errors_of_a_logarithm_are_factors() -> None:
+    relative = model(power=0)
     assert relative.interval(2.0, MIDDLE) == pytest.approx((2 * np.exp(-0.2), 2 * np.exp(0.1)))
-    assert relative.deviation(2.0, MIDDLE) == pytest.approx(0.2)
+    assert relative.deviation(2.0, MIDDLE) == pytest.approx(2 * np.sinh(0.1))
 
 
 def test_features_are_nought_at_the_middle_and_end_somewhere() -> None:
-    assert MIDDLE.features() == pytest.approx([1, 0, 0, 0, 0, 0, 0.25, 0, 0.25, 0, 0.375, 0])
-    formed = Observables(128.0, 0.0, 0.0, 0.05, outline=0.1, corners=0.2)
-    assert formed.features()[-4:] == pytest.approx([0.5, 0.25, 0.5, 0.25])
-    wild = Observables(width_px=0.0, noise=1e9, hidden=1.0, departure=float("nan"))
-    assert np.isfinite(wild.features()).all()
+    assert MIDDLE.features(-1.5) == pytest.approx([1, 0, 0, 0, -1.5])
+    wild = Observables(width_px=0.0, noise=1e9, hidden=1.0)
+    assert np.isfinite(wild.features(0.0)).all()
     assert np.isfinite(model(noise=50.0).interval(0.5, wild)).all()
 
 
@@ -74,11 +81,11 @@ def test_every_robust_value_and_axis_has_a_model() -> None:
 
 def test_small_and_noisy_rocks_are_less_sure() -> None:
     for name in ("ellipse_error", "angularity_2d", "sphericity_2d"):
-        small = Observables(width_px=20.0, noise=0.0, hidden=0.0, departure=0.05)
+        small = Observables(width_px=20.0, noise=0.0, hidden=0.0)
         one = read_error_model()[name]
         assert one.deviation(0.5, small) > 1.5 * one.deviation(0.5, MIDDLE), name
     for name in ("sphericity_3d", "axis_c_m"):
-        noisy = Observables(width_px=64.0, noise=0.1, hidden=0.0, departure=float("nan"))
+        noisy = Observables(width_px=64.0, noise=0.1, hidden=0.0)
         one = read_error_model()[name]
         assert one.deviation(0.5, noisy) > 1.2 * one.deviation(0.5, MIDDLE), name
 

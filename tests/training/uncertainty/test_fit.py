@@ -1,12 +1,15 @@
 """Fit of error models: it finds the scale that errors were drawn with, and covers them."""
 
+import json
+
 import numpy as np
 import pandas as pd
 import pytest
 
 from rockshape.uncertainty import Observables
-from training.uncertainty.fit import as_json, errors, fit_models
-from training.uncertainty.pairs import TAUGHT, made_pairs
+from rockshape.uncertainty.error_model import decode_models
+from training.uncertainty.fit import as_json, fit_models, left_out_models
+from training.uncertainty.pairs import FAMILIES, made_pairs
 from training.uncertainty.table import observables_of
 
 
@@ -24,9 +27,6 @@ def drawn(seed: int, rocks: int) -> pd.DataFrame:
             "seen_width_px": width,
             "seen_noise": 0.0,
             "seen_hidden": 0.0,
-            "seen_departure": 0.05,
-            "seen_outline": 0.05,
-            "seen_corners": 0.15,
         }
     )
 
@@ -38,7 +38,7 @@ def model():
 
 def test_the_scale_falls_with_the_width_as_it_was_drawn(model) -> None:
     def scale(width_px: float) -> float:
-        return model.middle_and_scale(Observables(width_px, 0.0, 0.0, 0.05))[1]
+        return model.scale(0.5, Observables(width_px, 0.0, 0.0))
 
     assert scale(32) / scale(128) == pytest.approx(4.0, rel=0.15)
 
@@ -49,7 +49,7 @@ def test_nine_of_ten_true_values_lie_within(model, width_px: tuple[int, int]) ->
     table = table[table["seen_width_px"].between(*width_px)]
     held, misses = 0, {"low": 0, "high": 0}
     for row in table.to_dict("records"):
-        seen = Observables(row["seen_width_px"], 0.0, 0.0, 0.05)
+        seen = Observables(row["seen_width_px"], 0.0, 0.0)
         low, high = model.interval(row["value_roundness"], seen)
         held += low <= row["truth_roundness"] <= high
         misses["low"] += row["truth_roundness"] < low
@@ -65,22 +65,51 @@ def test_ends_cover_a_family_whose_errors_no_other_tells() -> None:
     table["family"] = np.where(odd, "odd", table["family"])
     table.loc[odd, "value_roundness"] += 0.2
     one = fit_models(table)["roundness"]
-    middle = Observables(64.0, 0.0, 0.0, 0.05, 0.05, 0.15)
+    middle = Observables(64.0, 0.0, 0.0)
     low, high = one.interval(0.5, middle)
     assert low < 0.5 - 0.2  # where the odd family's truth lies
     plain = fit_models(drawn(4, 4000))["roundness"].interval(0.5, middle)
     assert high - low > 2 * (plain[1] - plain[0])
 
 
-def test_a_middle_that_the_rocks_tell_is_taken_off() -> None:
-    """Errors that grow with the corners shift the interval, and do not widen it."""
-    rng = np.random.default_rng(50)
-    table = drawn(5, 3000).assign(seen_corners=rng.uniform(0.0, 0.4, 3000))
-    table["value_roundness"] += table["seen_corners"]
-    one = fit_models(table)["roundness"]
-    for corners in (0.05, 0.35):
-        middle, scale = one.middle_and_scale(Observables(64.0, 0.0, 0.0, 0.05, 0.05, corners))
-        assert middle + scale * (one.low + one.high) / 2 == pytest.approx(corners, abs=0.05)
+def near_the_noise(family: str, truth: tuple[float, float], rocks: int) -> pd.DataFrame:
+    """Root mean squares that pixels add to: value² = truth² + (0.5/width)² in the mean."""
+    rng = np.random.default_rng(len(family))
+    width, exact = 2.0 ** rng.uniform(4, 7, rocks), rng.uniform(*truth, rocks)
+    square = exact**2 + 0.5 / width * np.hypot(exact, 0.5 / width) * rng.standard_normal(rocks)
+    table = drawn(1, rocks).assign(family=family, seen_width_px=width)
+    return table.assign(
+        value_angularity_2d=np.sqrt(np.maximum(square, (0.5 / width) ** 2)),
+        truth_angularity_2d=exact,
+    ).drop(columns=["value_roundness", "truth_roundness"])
+
+
+def test_smooth_rocks_are_covered_by_a_fit_that_has_seen_none() -> None:
+    """What pixels alone make of a rock without corners is within reach of 0."""
+    rough = [near_the_noise(name, (0.05, 0.3), 600) for name in ("cube", "slab", "broken")]
+    one = fit_models(pd.concat(rough))["angularity_2d"]
+    smooth = near_the_noise("ball", (0.0, 0.001), 600)
+    within = []
+    for row in smooth.to_dict("records"):
+        seen = Observables(row["seen_width_px"], 0.0, 0.0)
+        low, high = one.interval(row["value_angularity_2d"], seen)
+        within.append(low <= row["truth_angularity_2d"] <= high)
+    assert np.mean(within) > 0.85
+
+
+def test_models_of_a_family_are_those_of_all_others() -> None:
+    table = drawn(6, 900)
+    left_out = left_out_models(table)
+    assert set(left_out) == {"cube", "ball", "slab"}
+    assert left_out["cube"] == fit_models(table[table["family"] != "cube"])
+    assert left_out["cube"] != left_out["ball"]
+
+
+def test_models_are_read_back_as_they_were_written(model) -> None:
+    content = json.dumps(as_json({"roundness": model})).encode()
+    assert decode_models(content, where="here") == {"roundness": model}
+    with pytest.raises(ValueError, match="here: expected the features"):
+        decode_models(content.replace(b"width", b"breadth"), where="here")
 
 
 def test_too_few_errors_make_no_model() -> None:
@@ -90,18 +119,23 @@ def test_too_few_errors_make_no_model() -> None:
 
 def test_observables_are_read_back_as_they_were_written() -> None:
     seen = observables_of(drawn(1, 3))
-    assert seen[2] == Observables(drawn(1, 3)["seen_width_px"][2], 0.0, 0.0, 0.05, 0.05, 0.15)
+    assert seen[2] == Observables(drawn(1, 3)["seen_width_px"][2], 0.0, 0.0)
 
 
 def test_errors_of_axes_are_of_their_logarithms() -> None:
-    table = drawn(1, 3).rename(columns=lambda name: name.replace("roundness", "axis_a_m"))
-    error, _, _ = errors(table, "axis_a_m", relative=True)
-    expected = np.log(table["value_axis_a_m"] / table["truth_axis_a_m"])
-    assert error == pytest.approx(expected.to_numpy())
+    """Axes of twice the size have the same relative errors, and the same model."""
+    table = drawn(1, 900).rename(columns=lambda name: name.replace("roundness", "axis_a_m"))
+    twice = table.assign(
+        value_axis_a_m=2 * table["value_axis_a_m"], truth_axis_a_m=2 * table["truth_axis_a_m"]
+    )
+    one, other = fit_models(table)["axis_a_m"], fit_models(twice)["axis_a_m"]
+    seen = Observables(64.0, 0.0, 0.0)
+    assert one.interval(3.0, seen) == pytest.approx(other.interval(3.0, seen), rel=1e-4)
+    assert one.interval(6.0, seen) == pytest.approx([2 * end for end in one.interval(3.0, seen)])
 
 
 def test_a_pair_is_one_rock_from_one_place() -> None:
-    pairs = list(made_pairs(3, [0], TAUGHT))
+    pairs = list(made_pairs(3, [0], FAMILIES))
     assert {pair.noise for pair in pairs} == {"none", "stereo"}
     whole = [pair for pair in pairs if pair.observables.hidden < 0.02]
     assert len(whole) > 3

@@ -1,7 +1,10 @@
 """Files that go with each image of a batch: labels, range, cameras, by name."""
 
+from bisect import bisect_left
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import islice, takewhile
 from pathlib import Path
 
 from rockshape.errors import InputError
@@ -32,7 +35,32 @@ class Companion:
                 raise InputError(f"{image}: expected {self.option} {path}, found no such file")
             return path
         folder = Path(self.given)
-        return _in_folder(folder, image, self.option) if folder.is_dir() else folder
+        return self._in_folder(image) if folder.is_dir() else folder
+
+    def _in_folder(self, image: Path) -> Path:
+        folder, own = Path(self.given), image.resolve()
+        first = bisect_left(self._names, image.stem)
+        named = [
+            folder / name
+            for name in takewhile(
+                lambda name: name.startswith(image.stem), islice(self._names, first, None)
+            )
+            if (folder / name).resolve() != own
+        ]
+        same = [path for path in named if path.stem == image.stem]
+        longer = [path for path in named if path.name[len(image.stem)] in _SEPARATORS]
+        files = same or longer
+        if len(files) != 1:
+            found = ", ".join(path.name for path in files) or "none"
+            raise InputError(
+                f"{image}: expected one file for {self.option} in {folder}, found {found}"
+            )
+        return files[0]
+
+    @cached_property
+    def _names(self) -> list[str]:
+        """Names in the folder, in order: listed once for all images."""
+        return sorted(path.name for path in Path(self.given).iterdir())
 
     def rule(self) -> str:
         """How files are paired, in words."""
@@ -62,22 +90,6 @@ def paired(
         {image: files for image, files in found.items() if image.resolve() not in taken},
         {image: told for image, told in lacking.items() if image.resolve() not in taken},
     )
-
-
-def _in_folder(folder: Path, image: Path, option: str) -> Path:
-    own = image.resolve()
-    named = [
-        path
-        for path in sorted(folder.iterdir())
-        if path.name.startswith(image.stem) and path.resolve() != own
-    ]
-    same = [path for path in named if path.stem == image.stem]
-    longer = [path for path in named if path.name[len(image.stem)] in _SEPARATORS]
-    files = same or longer
-    if len(files) != 1:
-        found = ", ".join(path.name for path in files) or "none"
-        raise InputError(f"{image}: expected one file for {option} in {folder}, found {found}")
-    return files[0]
 
 
 def _is_pattern(given: str) -> bool:

@@ -197,3 +197,21 @@ def test_pairs_are_by_name_and_never_guessed() -> None:
     assert list(lacking) == [image]
     cv2.imwrite("masks/p1.tif", np.zeros((9, 9), np.uint8))  # the same name goes first
     assert Companion("--labels", "masks").of(image) == Path("masks/p1.tif")
+
+
+def test_a_folder_is_listed_once_for_all_images(monkeypatch, tmp_path: Path) -> None:
+    masks = tmp_path / "many"
+    masks.mkdir()
+    images = [tmp_path / f"p{number}.png" for number in range(200)]
+    for image in images:
+        (masks / f"{image.stem}_mask.png").touch()
+    listed = []
+    plain = Path.iterdir
+    monkeypatch.setattr(Path, "iterdir", lambda path: listed.append(path) or plain(path))
+    found, lacking = paired(images, {"labels": Companion("--labels", str(masks))})
+    assert lacking == {}
+    assert {image.stem for image in images} == {
+        files["labels"].stem.removesuffix("_mask") for files in found.values()
+    }
+    assert all(files["labels"].stem == f"{image.stem}_mask" for image, files in found.items())
+    assert listed == [masks]

@@ -147,7 +147,7 @@ TARGETS_CASE = Case(
     name="targets",
     what="targets of the robust measures beside what suites score on seeds held out",
     run=targets,
-    smallest={"suites": ("relief",), "preset": "imp", "jobs": 1},
+    smallest={"suites": ("yard",), "preset": "imp", "jobs": 1},
     threads=2,
     slow=True,
 )

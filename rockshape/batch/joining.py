@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     Tables = Iterator[pd.DataFrame]
 
 About = Mapping[str, Any]
+_GROUP_ROWS = 20_000  # at least, of Parquet: what is kept of a group costs memory and space
 
 
 def _csv(tables: "Tables", stream: IO[bytes], about: About) -> None:  # noqa: ARG001
@@ -35,15 +36,24 @@ def _json(tables: "Tables", stream: IO[bytes], about: About) -> None:  # noqa: A
 
 
 def _parquet(tables: "Tables", stream: IO[bytes], about: About) -> None:
-    import pyarrow.parquet as pq  # noqa: PLC0415 - for this format alone
+    """Write tables in row groups of many; what is known about them is written once."""
+    import pyarrow as pa  # noqa: PLC0415 - for this format alone
+    import pyarrow.parquet as pq  # noqa: PLC0415
 
-    writer = None
-    for table in tables:
-        rows = described_table(table, about)
-        writer = pq.ParquetWriter(stream, rows.schema) if writer is None else writer
-        writer.write_table(rows.cast(writer.schema))
-    if writer is not None:
-        writer.close()
+    first = next(tables, None)
+    if first is None:
+        return
+    waiting = [described_table(first, about)]
+    schema, rows = waiting[0].schema, len(first)
+    with pq.ParquetWriter(stream, schema) as writer:
+        for table in tables:
+            waiting.append(pa.Table.from_pandas(table, preserve_index=False).cast(schema))
+            rows += len(table)
+            if rows >= _GROUP_ROWS:
+                writer.write_table(pa.concat_tables(waiting))
+                waiting, rows = [], 0
+        if waiting:
+            writer.write_table(pa.concat_tables(waiting))
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,10 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pandas as pd
+import pyarrow.parquet as pq
 import pytest
 
+from rockshape.batch import joining
 from rockshape.batch.images import images_of, is_batch
 from rockshape.batch.pairing import Companion, paired
 from rockshape.cli import main
@@ -215,3 +217,28 @@ def test_a_folder_is_listed_once_for_all_images(monkeypatch, tmp_path: Path) -> 
     }
     assert all(files["labels"].stem == f"{image.stem}_mask" for image, files in found.items())
     assert listed == [masks]
+
+
+def test_many_tables_are_joined_in_few_row_groups_that_tell_their_inputs_once(
+    monkeypatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(joining, "_GROUP_ROWS", 100)
+    described = []
+    plain = joining.described_table
+    monkeypatch.setattr(
+        joining, "described_table", lambda *given: described.append(1) or plain(*given)
+    )
+    tables = [
+        pd.DataFrame({"rock": [1, 2, 3], "value": [number, np.nan, 0.5]}) for number in range(70)
+    ]
+    path = tmp_path / "joined.parquet"
+    joining.write_joined(path, iter(tables), about={"inputs": ["a", "b"]})
+    kept = pq.ParquetFile(path)
+    assert [kept.metadata.row_group(k).num_rows for k in range(kept.num_row_groups)] == [
+        102,
+        102,
+        6,
+    ]
+    assert described == [1]
+    assert json.loads(kept.schema_arrow.metadata[b"rockshape"]) == {"inputs": ["a", "b"]}
+    pd.testing.assert_frame_equal(pd.read_parquet(path), pd.concat(tables, ignore_index=True))

@@ -106,8 +106,9 @@ def _held(
     held[["value", "truth"]] = known[[f"value_{name}", f"truth_{name}"]]
     if name in AXES:
         held = held.div(held["truth"], axis=0)
+    held = held.dropna(subset=["low"])  # of a rock of which much is hidden
     kept = known.filter(regex="^(set|family|seen_.*|distance_m|buried)$")
-    return kept.join(held).assign(name=name)
+    return kept.join(held, how="inner").assign(name=name)
 
 
 def _score(low: Floats, high: Floats, truth: Floats) -> float:

@@ -1,7 +1,8 @@
 """Measures as functions of one rock: of its mask, its outline or its points.
 
 Measures of the outline take a mask (rows, cols), bool or 0 and another number, whose largest part
-is measured; or a closed outline (n, 2) as (x, y) in pixels. `method` picks the reading, `robust` or
+is measured, as whole also where it touches the array's edge; or an outline (n, 2) as (x, y) in
+pixels, which its last and first point close. `method` picks the reading, `robust` or
 `paper`; the latter is one of pixels, so that an outline is drawn on the pixel grid first.
 
 Measures of the solid take points in the camera frame, metres: (n, 3), or (rows, cols, 3) with NaN
@@ -133,10 +134,17 @@ def _flat_view(rock: ArrayLike) -> RockView:
     given = array_argument("rock", rock)
     if given.dtype.kind in "iuf" and given.ndim == 2 and given.shape[1] == 2:
         return _outline_view(given)
-    if given.ndim != 2 or given.dtype.kind not in "bui" or len(np.unique(given[given != 0])) > 1:
+    if given.ndim != 2 or given.dtype.kind not in "bui":
         raise InputError(
-            "rock: expected a mask (rows, cols) of one rock, bool or whole numbers, or an "
-            f"outline (n, 2), found {given.shape} of {given.dtype}"
+            "rock: expected a mask (rows, cols), bool or whole numbers, or an outline (n, 2), "
+            f"found {given.shape} of {given.dtype}"
+        )
+    numbers = np.unique(given[given != 0])
+    if len(numbers) > 1:
+        told = ", ".join(str(number) for number in numbers[:3])
+        raise InputError(
+            f"rock: expected a mask of one rock, found labels {told}"
+            f"{' …' if len(numbers) > 3 else ''}"
         )
     parts = Instances.from_labels((given != 0).astype(np.uint8)).largest_parts()
     part = next(iter(parts), Instance(1, np.s_[0:0, 0:0], np.zeros((0, 0), dtype=bool)))

@@ -16,12 +16,13 @@ is left of those of 0.5 radii. The value ranks ripples of like waves.
 Blind to: waves longer than half the radius, which are form, and shorter than a tenth of it.
 
 Smallest size: 80 px. The pixels make heights of 0.64 radii^(-3/2) (px) themselves: 0.0018 of a rock
-100 px wide, 0.0006 at 200 px. Where they are more than half of what is seen, and more than 0.0004,
-it is `not resolvable`, as many rocks below 200 px are. docs/resolution.md has order, level and
-share answered by size (`python benchmarks/run.py roughness_2d`).
+100 px wide, 0.0006 at 200 px. Where these are over 0.0004, and their square is over half of that of
+what is seen, it is `not resolvable`, as many rocks below 200 px are. docs/resolution.md has order,
+level and share answered by size (`python benchmarks/run.py roughness_2d`).
 
 Degenerate: 0 where the pixels make all that is seen of a large rock. Contacts are left out as
-roundness does. It refuses rocks that the frame cuts. An outline found to sub-pixel is taken to be
+roundness does. In a method of one's own it refuses rocks that the frame
+cuts; a mask or outline by itself is taken as whole. An outline found to sub-pixel is taken to be
 no surer than pixels are.
 
 Source: none; the scales of roughness, roundness and form are told apart as Barrett (1980) does.

@@ -37,7 +37,7 @@ class OutlineRoughness:
 def roughness_of(edge: NDArray[np.float64]) -> OutlineRoughness | None:
     """Heights of a closed edge (n, 2), in pixels, between the two scales.
 
-    Waves of 0.2 to 0.5 radii keep most of their height. None for an edge without area.
+    Waves of 0.12 to 0.3 radii keep half of their height or more. None for an edge without area.
     """
     fine, coarse, bent = (
         form_of(edge, staircase=False, share=share)

@@ -25,7 +25,8 @@ def rank(table: "pd.DataFrame", by: str, *, ascending: bool = False) -> "pd.Data
     `rank_low` and `rank_high` hold its true rank with 90 %. Rocks without a value are left out.
     Equal values have the table's order.
 
-    Raises: InputError for a column that the table has not, or whose uncertainty it has not.
+    Raises: InputError for a column that the table has not, or whose uncertainty it has not,
+        and for uncertainties that cannot be.
     """
     import pandas as pd  # noqa: PLC0415 - it takes as long as all else
 
@@ -37,6 +38,7 @@ def rank(table: "pd.DataFrame", by: str, *, ascending: bool = False) -> "pd.Data
         raise InputError(
             f"by (--by): expected the column {sd_name}, as --uncertainty writes it, found none"
         )
+    _check_uncertainty(table, by)
     known = table[np.isfinite(table[by]) & np.isfinite(table[sd_name])]
     order = np.argsort(known[by].to_numpy() * (1 if ascending else -1), kind="stable")
     known = known.iloc[order]
@@ -58,6 +60,25 @@ def rank(table: "pd.DataFrame", by: str, *, ascending: bool = False) -> "pd.Data
             "rank_high": high,
         }
     )
+
+
+def _check_uncertainty(table: "pd.DataFrame", by: str) -> None:
+    """Raises: InputError for a negative standard deviation, or a value outside its interval."""
+    sd_name, low_name, high_name = uncertainty_columns(by)
+    value = table[by].to_numpy(dtype=float)
+    for name, words, bound, sign in (
+        (sd_name, "at least 0", np.zeros(len(value)), 1),
+        (low_name, f"at most {by}", value, -1),
+        (high_name, f"at least {by}", value, 1),
+    ):
+        if name not in table:
+            continue
+        found = table[name].to_numpy(dtype=float)
+        rows = np.flatnonzero(sign * (found - bound) < 0)
+        if len(rows):
+            raise InputError(
+                f"{name}: expected {words}, found {found[rows[0]]:g} in row {rows[0] + 1}"
+            )
 
 
 def _before_next(value: Floats, sd: Floats) -> Floats:

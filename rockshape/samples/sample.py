@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 AXES = ("axis_a_m", "axis_b_m", "axis_c_m")
-FOUND_SD = 0.06  # of the logarithm of a percentile, where rocks are found in a picture alone
+FOUND_SD = 0.06  # of ln D of any percentile, where every rock was found in a picture alone
 
 
 @dataclass(frozen=True, eq=False)

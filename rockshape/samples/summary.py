@@ -85,7 +85,8 @@ class Summary:
             )
             yield f"  {scheme} ({_counted(self.classified[scheme])}): {told}"
         if self.distributions and sample.found_sd:
-            yield f"  intervals of size take along {sample.found_sd:.0%} for finding the rocks"
+            share = f"{100 * sample.found_sd:.2g} %"
+            yield f"  intervals of size include {share} (standard deviation) for finding the rocks"
         if sample.soft_outlines:
             yield f"  roundness of {_counted(sample.soft_outlines)} with a soft outline left out"
         if self.abundance is not None:

@@ -45,12 +45,16 @@ class ErrorModel:
         held = np.clip(self.features(value, observables), self.least, self.most)
         return float(np.exp(held @ self.coefficients))
 
+    def knows(self, observables: Observables) -> bool:
+        """Whether no more of a rock is hidden than of those of the fit."""
+        return observables.hidden <= self.most[NAMES.index("hidden")]
+
     def interval(self, value: float, observables: Observables) -> tuple[float, float]:
         """Low and high end of the 90 % interval of the true value; the value lies within."""
         scale = self.scale(value, observables)
-        return self._moved(value, -scale * max(self.high, 0.0)), self._moved(
-            value, -scale * min(self.low, 0.0)
-        )
+        low = self._moved(value, -scale * max(self.high, 0.0))  # the value errs upwards
+        high = self._moved(value, -scale * min(self.low, 0.0))
+        return low, high
 
     def deviation(self, value: float, observables: Observables) -> float:
         """Standard deviation: half of what one of the power spans, up and down from the value."""

@@ -36,7 +36,8 @@ def estimates(
 ) -> dict[str, Uncertainty]:
     """Uncertainties of the values that have a model, by their columns.
 
-    Intervals end where a measure's values end; `ranges` has those ends by column.
+    Intervals end where a measure's values end; `ranges` has those ends by column. A rock of which
+    more is hidden than of those of the fit has none.
     """
     return {
         name: _estimate(value, observables, models[name], ranges.get(name, (0.0, np.inf)))
@@ -48,7 +49,7 @@ def estimates(
 def _estimate(
     value: float, observables: Observables, model: ErrorModel, ends: tuple[float, float]
 ) -> Uncertainty:
-    if not np.isfinite(value):
+    if not (np.isfinite(value) and model.knows(observables)):
         return _NONE
     low, high = (float(np.clip(end, *ends)) for end in model.interval(value, observables))
     return Uncertainty(model.deviation(value, observables), low, high)

@@ -93,3 +93,18 @@ def test_a_measured_image_is_ranked(tmp_path, capsys) -> None:
     ranked = capsys.readouterr().out.splitlines()
     assert [line.split(",")[1] for line in ranked[1:]] == ["1", "2", "3"]
     assert main(["rank", str(out), "--by", "angularity_2d", "--top", "0"]) == 2
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "told"),
+    [
+        ("roundness_sd", -1.0, "roundness_sd: expected at least 0, found -1 in row 2"),
+        ("roundness_low", 0.6, "roundness_low: expected at most roundness, found 0.6 in row 2"),
+        ("roundness_high", 0.2, "roundness_high: expected at least roundness, found 0.2 in row 2"),
+    ],
+)
+def test_uncertainties_that_cannot_be_are_refused(name: str, value: float, told: str) -> None:
+    rocks = table([0.6, 0.5], [0.1, 0.1]).assign(roundness_low=0.4, roundness_high=0.7)
+    rocks.loc[1, name] = value
+    with pytest.raises(InputError, match=told):
+        rockshape.rank(rocks, "roundness")

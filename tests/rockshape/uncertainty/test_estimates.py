@@ -7,7 +7,7 @@ import rockshape
 import synth
 from rockshape.measurement import AXES, columns, to_frame
 from rockshape.method import PAPER, ROBUST
-from rockshape.uncertainty import ErrorModel, Observables, read_error_model
+from rockshape.uncertainty import ErrorModel, Observables, estimates, read_error_model
 from rockshape.uncertainty.observables import NAMES
 
 MIDDLE = Observables(width_px=64.0, noise=0.0, hidden=0.0)
@@ -55,6 +55,14 @@ def test_features_beyond_the_fits_count_as_those_at_its_end() -> None:
     assert scale(32.0) == pytest.approx(0.1 * np.exp(-1.0))  # the fit's end
     assert scale(8.0) == scale(32.0)
     assert scale(45.0) > scale(32.0)
+
+
+def test_a_rock_with_more_hidden_than_the_fit_has_seen_has_no_interval() -> None:
+    seen = model()
+    most = seen.most[NAMES.index("hidden")]
+    for hidden, known in ((most, True), (most + 0.01, False)):
+        found = estimates({"a": 0.5}, Observables(64.0, 0.0, hidden), {"a": seen}, {})["a"]
+        assert np.isfinite([found.sd, found.low, found.high]).all() == known
 
 
 def test_errors_of_a_logarithm_are_factors() -> None:

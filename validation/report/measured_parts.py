@@ -9,7 +9,7 @@ from validation.report.embedded_views import ShownPicture, shown_pictures
 from validation.report.rocks import ROCKS, RockTable, Subject, rock_table
 from validation.report.scatter_chart import Plot, plots
 from validation.report.section import Room
-from validation.suite.experiment import MeasuredExperiment
+from validation.suite.experiment import Experiment
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class MeasuredParts:
 
 def measured_parts(
     run: Run,
-    experiment: MeasuredExperiment,
+    experiment: Experiment,
     room: Room,
     *,
     words: Callable[[RecordKey], tuple[str, str]],

@@ -13,7 +13,7 @@ from validation.report.rock_key import RockKey, keys_of
 from validation.report.rock_rows import Column, Record, RowMaker, ShownRock
 from validation.scores.scoring import claims_of
 from validation.scores.titles import title_of, unit_of
-from validation.suite.experiment import MeasuredExperiment
+from validation.suite.experiment import Experiment
 
 TRUTHS = {
     "truth_angularity": "true angularity",
@@ -39,7 +39,7 @@ ROCKS = Subject()
 class RockTable:
     """The rocks of an experiment that the page shows."""
 
-    experiment: MeasuredExperiment
+    experiment: Experiment
     subject: Subject
     truths: tuple[str, ...]  # titles
     columns: tuple[Column, ...]
@@ -58,7 +58,7 @@ class RockTable:
 
 
 def _columns(
-    run: Run, experiment: MeasuredExperiment, records: pd.DataFrame, subject: Subject
+    run: Run, experiment: Experiment, records: pd.DataFrame, subject: Subject
 ) -> tuple[Column, ...]:
     columns = [
         Column(method, measure.column, measure.title, measure.unit)
@@ -76,7 +76,7 @@ def _columns(
 
 def rock_table(
     run: Run,
-    experiment: MeasuredExperiment,
+    experiment: Experiment,
     chosen: Mapping[RockKey, Sequence[Portrait]],
     subject: Subject = ROCKS,
 ) -> RockTable:

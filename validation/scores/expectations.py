@@ -11,7 +11,7 @@ from typing import NamedTuple
 from rockshape.measures import Measure
 from rockshape.method import find_method, measure_of
 from validation.peers import MeasureSpec, Trait
-from validation.suite.experiment import MeasuredExperiment
+from validation.suite.experiment import Experiment
 
 TRUTH = "truth_"  # begins a truth's name as a column of the records
 
@@ -41,9 +41,7 @@ class Claim:
     same_quantity: bool = False  # measure and truth are one quantity: their difference is an error
 
 
-def columns_of(
-    experiment: MeasuredExperiment, measures: Sequence[MeasureSpec]
-) -> Iterator[JudgedColumn]:
+def columns_of(experiment: Experiment, measures: Sequence[MeasureSpec]) -> Iterator[JudgedColumn]:
     """Columns that are judged: those of the methods, then those of other measures."""
     for method in experiment.methods:
         for measure in find_method(method).measures:

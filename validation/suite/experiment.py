@@ -6,13 +6,13 @@ from typing import Annotated, Any, ClassVar, Self
 import msgspec
 from msgspec import Meta, Struct
 
-from rockshape.method import BUILT_IN, methods
+from rockshape.method import methods
 from synth.spec.wording import expected_one_of
 from validation.errors import InputError
 from validation.peers import Name, Text
 
 Seed = Annotated[int, Meta(ge=0, lt=2**32)]
-Methods = Annotated[tuple[str, ...], Meta(min_length=1)]
+Methods = Annotated[tuple[str, ...], Meta(min_length=1)]  # the first one's outlines are shown
 
 
 class Experiment(
@@ -35,6 +35,23 @@ class Experiment(
     title: Text
     seed: Seed
 
+    def __post_init__(self) -> None:
+        """Ask for methods, each once, where rocks are measured."""
+        if len(set(self.methods)) < max(len(self.methods), int(self.is_measured)):
+            raise ValueError(
+                f"methods: expected some, each once, found {', '.join(self.methods) or 'none'}"
+            )
+
+    @property
+    def is_measured(self) -> bool:
+        """Whether its rocks are measured: whether `methods` is a key of its kind."""
+        return "methods" in self.__struct_fields__
+
+    @property
+    def methods(self) -> tuple[str, ...]:
+        """Names of the methods that measure its rocks; a measured kind has a key in its place."""
+        return ()
+
     @property
     def units(self) -> tuple[tuple[str, int], ...]:
         """(series, scene number) of each unit, in the order of the records."""
@@ -48,9 +65,9 @@ class Experiment(
         """Spec with what depends on the machine, such as the renderer, chosen."""
         return self
 
-    def measured_by(self, methods: tuple[str, ...]) -> Self:  # noqa: ARG002
+    def measured_by(self, methods: tuple[str, ...]) -> Self:
         """Spec measured by these methods; itself where it measures nothing."""
-        return self
+        return msgspec.structs.replace(self, methods=methods) if self.is_measured else self
 
     def first(self, scenes: int) -> Self:  # noqa: ARG002
         """Spec with at most so many scenes, where a scene takes time."""
@@ -62,35 +79,11 @@ class Experiment(
         Raises:
             InputError: a name that no registry has.
         """
+        for method in self.methods:
+            if method not in methods():
+                raise InputError(f"methods: {expected_one_of(method, methods())}")
 
     def plain(self, *, without: Sequence[str]) -> dict[str, Any]:
         """Spec as plain values but for some of its keys."""
         spec: dict[str, Any] = msgspec.to_builtins(self)
         return {key: value for key, value in spec.items() if key not in without}
-
-
-class MeasuredExperiment(Experiment, frozen=True, kw_only=True, tag="measured"):
-    """Base of the specs whose rocks are measured, by several methods side by side."""
-
-    methods: Methods = BUILT_IN  # the first one's outlines are the pictures'
-
-    def __post_init__(self) -> None:
-        """Ask for methods, each once."""
-        if len(set(self.methods)) < max(1, len(self.methods)):
-            raise ValueError(
-                f"methods: expected some, each once, found {', '.join(self.methods) or 'none'}"
-            )
-
-    def measured_by(self, methods: tuple[str, ...]) -> Self:
-        """Spec measured by these methods."""
-        return msgspec.structs.replace(self, methods=methods)
-
-    def check(self) -> None:
-        """Check that every method is known.
-
-        Raises:
-            InputError: one that is not.
-        """
-        for method in self.methods:
-            if method not in methods():
-                raise InputError(f"methods: {expected_one_of(method, methods())}")

@@ -5,17 +5,19 @@ from typing import Annotated
 import msgspec
 from msgspec import Meta
 
+from rockshape.method import BUILT_IN
 from synth.spec import SceneSpec
 from synth.spec.ground import GroundSpec
 from synth.spec.limits import Degrees
 from synth.spec.view import SunSpec
-from validation.suite.measured_scenes import MeasuredScenes
+from validation.suite.experiment import Methods
 from validation.suite.scene import has_exact_range
+from validation.suite.scenes_experiment import ScenesExperiment
 
 CLEAN, FOUND, NOISY = STATES = ("clean", "found", "noisy")
 
 
-class DesignExperiment(MeasuredScenes, frozen=True, kw_only=True, tag="design"):
+class DesignExperiment(ScenesExperiment, frozen=True, kw_only=True, tag="design"):
     """The same rocks in every cell of views × distances × suns × rolls: what moves their values.
 
     Scene i of the experiment is scene 0 of `scene` with the seed `seed` + i, its rocks placed for
@@ -23,6 +25,7 @@ class DesignExperiment(MeasuredScenes, frozen=True, kw_only=True, tag="design"):
     of pixels.
     """
 
+    methods: Methods = BUILT_IN
     distances_m: Annotated[tuple[Annotated[float, Meta(gt=0)], ...], Meta(min_length=2)]
     suns: Annotated[tuple[SunSpec, ...], Meta(min_length=2)]
     rolls_deg: Annotated[tuple[Degrees, ...], Meta(min_length=2)]

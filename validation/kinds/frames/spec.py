@@ -4,17 +4,19 @@ from typing import Annotated, Any, Literal
 
 from msgspec import Meta
 
-from validation.suite.experiment import MeasuredExperiment
+from rockshape.method import BUILT_IN
+from validation.suite.experiment import Experiment, Methods
 
 FrameName = Literal["i925510", "i924795"]
 
 
-class FramesExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="frames"):
+class FramesExperiment(Experiment, frozen=True, kw_only=True, tag="frames"):
     """Frames of the paper's figures 11 and 12; unit i is frame i.
 
     The truth is the paper's word: the order that it gives its named rocks by each measure.
     """
 
+    methods: Methods = BUILT_IN
     frames: Annotated[tuple[FrameName, ...], Meta(min_length=1)] = ("i925510", "i924795")
 
     @property

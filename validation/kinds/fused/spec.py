@@ -5,8 +5,9 @@ from typing import Annotated
 from msgspec import UNSET, Meta
 
 from synth.spec import SceneSpec
-from validation.suite.measured_scenes import MeasuredScenes
+from validation.suite.experiment import Methods
 from validation.suite.scene import check_scene_is_single
+from validation.suite.scenes_experiment import ScenesExperiment
 
 ALONE = "alone"  # every view by itself
 GIVEN, REFINED, EXACT = "given", "refined", "exact"  # views fused, by their poses
@@ -14,7 +15,7 @@ FUSED = (GIVEN, REFINED, EXACT)
 SERIES = (ALONE, *FUSED)
 
 
-class FusedExperiment(MeasuredScenes, frozen=True, kw_only=True, tag="fused"):
+class FusedExperiment(ScenesExperiment, frozen=True, kw_only=True, tag="fused"):
     """Rocks with true masks, seen from several places whose reported poses are off.
 
     Scene i of the experiment is scene 0 of `scene` with the seed `seed` + i. Its records have a
@@ -22,7 +23,7 @@ class FusedExperiment(MeasuredScenes, frozen=True, kw_only=True, tag="fused"):
     reported, refined by the range, and true.
     """
 
-    methods: Annotated[tuple[str, ...], Meta(min_length=1)] = ("robust",)
+    methods: Methods = ("robust",)
     scene: SceneSpec
     min_visible_fraction: Annotated[float, Meta(ge=0, le=1)] = 0.5
 

@@ -5,15 +5,17 @@ from typing import Annotated, Any, ClassVar, Literal
 import msgspec
 from msgspec import Meta
 
+from rockshape.method import BUILT_IN
 from synth.spec import SceneSpec
 from validation.kinds.multiview.sweep import Sweep
-from validation.suite.measured_scenes import MeasuredScenes
+from validation.suite.experiment import Methods
 from validation.suite.scene import check_scene_is_single
+from validation.suite.scenes_experiment import ScenesExperiment
 
 Varied = Literal["angularity", "roughness", "form"]
 
 
-class MultiviewExperiment(MeasuredScenes, frozen=True, kw_only=True, tag="multiview"):
+class MultiviewExperiment(ScenesExperiment, frozen=True, kw_only=True, tag="multiview"):
     """Rocks seen from several views, as in the paper's figure 10, but with truth.
 
     Scene i of the experiment is scene 0 of `scene` with the seed `seed` + i; with a sweep, at each
@@ -22,6 +24,7 @@ class MultiviewExperiment(MeasuredScenes, frozen=True, kw_only=True, tag="multiv
 
     takes_measures: ClassVar[bool] = True
 
+    methods: Methods = BUILT_IN
     varied: Annotated[tuple[Varied, ...], Meta(min_length=1)]  # truths that differ between rocks
     sweep: Sweep | None = None
     labels: Literal["found", "true"] = "found"  # whose masks are measured

@@ -2,21 +2,22 @@
 
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Literal
 
-import msgspec
 from msgspec import Meta
 
+from rockshape.method import BUILT_IN
 from validation.errors import InputError
+from validation.kinds.photographs.sources.experiment import PicturesExperiment
 from validation.kinds.photographs.sources.files import Files
 from validation.kinds.photographs.sources.shipped import Shipped
-from validation.suite.experiment import MeasuredExperiment
+from validation.suite.experiment import Methods
 
 Resolution = Literal["half", "third"]
 FACTORS: Mapping[Resolution, int] = MappingProxyType({"half": 2, "third": 3})
 
 
-class PebblesExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="pebbles"):
+class PebblesExperiment(PicturesExperiment, frozen=True, kw_only=True, tag="pebbles"):
     """Real pebbles at their full resolution and with larger pixels, each by itself.
 
     Unit i is picture i of the source. A pebble counts where it has so many pixels as a disk of the
@@ -26,29 +27,15 @@ class PebblesExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="pebb
 
     takes_measures = True
 
+    methods: Methods = BUILT_IN
     pictures: Shipped | Files
     series: Annotated[tuple[Resolution, ...], Meta(min_length=1)] = ("half", "third")
     min_width_px: Annotated[float, Meta(ge=12)] = 36.0  # equivalent diameter, full resolution
-
-    def __post_init__(self) -> None:
-        """Ask for each resolution once."""
-        super().__post_init__()
-        if len(set(self.series)) < len(self.series):
-            raise ValueError(f"series: expected each once, found {', '.join(self.series)}")
-
-    @property
-    def units(self) -> tuple[tuple[str, int], ...]:
-        """Each picture, at all resolutions."""
-        return tuple(("", number) for number in range(self.pictures.count))
 
     def dependencies(self, series: str, scene: int) -> dict[str, Any]:  # noqa: ARG002
         """What a unit depends on."""
         plain = self.plain(without=("title", "pictures"))
         return plain | {"picture": self.pictures.dependencies(scene)}
-
-    def first(self, scenes: int) -> Self:
-        """Spec with at most so many pictures."""
-        return msgspec.structs.replace(self, pictures=self.pictures.first(scenes))
 
     def check(self) -> None:
         """Check that methods and pictures are known, and that the masks tell rocks apart.
@@ -57,6 +44,5 @@ class PebblesExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="pebb
             InputError: one that is not, or a mask without rocks.
         """
         super().check()
-        self.pictures.check()
         if not self.pictures.has_instances:
             raise InputError("pictures: expected masks that tell rocks apart, found none")

@@ -1,19 +1,17 @@
 """Segmentation experiment: rocks on the ground, found in several ways."""
 
-from typing import Annotated, Any, Self
+from typing import Annotated, Any
 
-import msgspec
 from msgspec import Meta
 
-from synth.spec import SceneSpec
 from synth.spec.wording import expected_one_of
 from validation.errors import InputError
 from validation.kinds.segmentation.sources import source_of, split_series
-from validation.suite.experiment import Experiment
-from validation.suite.scene import check_scene_is_single, with_renderer
+from validation.suite.scene import check_scene_is_single
+from validation.suite.scenes_experiment import ScenesExperiment
 
 
-class SegmentationExperiment(Experiment, frozen=True, kw_only=True, tag="segmentation"):
+class SegmentationExperiment(ScenesExperiment, frozen=True, kw_only=True, tag="segmentation"):
     """Rocks on the ground, segmented in several ways: variants of ours beside plain baselines.
 
     Scene i of the experiment is scene 0 of `scene` with the seed `seed` + i. A rock counts where
@@ -21,9 +19,7 @@ class SegmentationExperiment(Experiment, frozen=True, kw_only=True, tag="segment
     high in standard deviations of its depth, not too far, and half of it has range.
     """
 
-    scenes: Annotated[int, Meta(ge=1, le=9999)]
     series: Annotated[tuple[str, ...], Meta(min_length=1)]  # a way and the range it is given
-    scene: SceneSpec = SceneSpec()
     min_iou: Annotated[float, Meta(ge=0.5, le=1)] = 0.5
     min_width_px: Annotated[int, Meta(ge=1)] = 12
     min_visible_fraction: Annotated[float, Meta(ge=0, le=1)] = 0.5
@@ -33,6 +29,7 @@ class SegmentationExperiment(Experiment, frozen=True, kw_only=True, tag="segment
 
     def __post_init__(self) -> None:
         """Leave one place for seed and number of scenes, and ask for range that the scene has."""
+        super().__post_init__()
         check_scene_is_single(self.scene)
         for series in self.series:
             way, source = split_series(series)
@@ -45,11 +42,6 @@ class SegmentationExperiment(Experiment, frozen=True, kw_only=True, tag="segment
                     f"series: {series!r} needs scene.noise.kind {source!r}, "
                     f"found {self.scene.noise.kind!r}"
                 )
-
-    @property
-    def units(self) -> tuple[tuple[str, int], ...]:
-        """Each scene, segmented in all ways."""
-        return tuple(("", scene) for scene in range(self.scenes))
 
     def dependencies(self, series: str, scene: int) -> dict[str, Any]:  # noqa: ARG002
         """What a unit depends on."""
@@ -71,7 +63,3 @@ class SegmentationExperiment(Experiment, frozen=True, kw_only=True, tag="segment
                 raise InputError(f"series: {expected_one_of(way, known_ways())}")
             if not fits_source(way, source_of(series)):
                 raise InputError(f"series: expected other range for {way}, found {source!r}")
-
-    def settled(self) -> Self:
-        """Spec with the renderer of this machine."""
-        return msgspec.structs.replace(self, scene=with_renderer(self.scene))

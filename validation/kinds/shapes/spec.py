@@ -4,12 +4,13 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from msgspec import Meta
 
-from validation.suite.experiment import MeasuredExperiment
+from rockshape.method import BUILT_IN
+from validation.suite.experiment import Experiment, Methods
 
 ShapeSeries = Literal["roundness", "sphericity", "rough", "rippled"]
 
 
-class ShapesExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="shapes"):
+class ShapesExperiment(Experiment, frozen=True, kw_only=True, tag="shapes"):
     """Hand-drawn shapes in series, as in the paper's figures 8 and 9.
 
     Drawing i of a series has the seed `seed` + i.
@@ -17,6 +18,7 @@ class ShapesExperiment(MeasuredExperiment, frozen=True, kw_only=True, tag="shape
 
     takes_measures: ClassVar[bool] = True
 
+    methods: Methods = BUILT_IN
     drawings: Annotated[int, Meta(ge=1, le=9999)]
     series: Annotated[tuple[ShapeSeries, ...], Meta(min_length=1)] = ("roundness", "sphericity")
     count: Annotated[int, Meta(ge=3, le=12)] = 4

@@ -1,4 +1,4 @@
-"""Measured scenes: an experiment whose units are scenes of made rocks."""
+"""Scenes experiment: an experiment whose units are scenes of made rocks."""
 
 from typing import Annotated, Any, Self
 
@@ -6,11 +6,11 @@ import msgspec
 from msgspec import Meta
 
 from synth.spec import SceneSpec
-from validation.suite.experiment import MeasuredExperiment
+from validation.suite.experiment import Experiment
 from validation.suite.scene import with_renderer
 
 
-class MeasuredScenes(MeasuredExperiment, frozen=True, kw_only=True, tag="measured-scenes"):
+class ScenesExperiment(Experiment, frozen=True, kw_only=True):
     """Base of the specs whose scene number i is scene 0 of `scene` with the seed `seed` + i."""
 
     scenes: Annotated[int, Meta(ge=1, le=9999)]

@@ -21,9 +21,8 @@ what is seen, it is `not resolvable`, as many rocks below 200 px are. docs/resol
 level and share answered by size (`python benchmarks/run.py roughness_2d`).
 
 Degenerate: 0 where the pixels make all that is seen of a large rock. Contacts are left out as
-roundness does. In a method of one's own it refuses rocks that the frame
-cuts; a mask or outline by itself is taken as whole. An outline found to sub-pixel is taken to be
-no surer than pixels are.
+roundness does. In a method of one's own it refuses rocks that the frame cuts; a mask or outline by
+itself is taken as whole. An outline found to sub-pixel is taken to be no surer than pixels are.
 
 Source: none; the scales of roughness, roundness and form are told apart as Barrett (1980) does.
 """

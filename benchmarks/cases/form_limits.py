@@ -20,6 +20,7 @@ from rockshape.rock.view import RockView
 from synth.camera.pose import Pose
 from synth.geometry.mesh import Mesh
 from synth.geometry.min_volume_box import smallest_box
+from synth.rocks.truth import maximum_projection_sphericity
 from synth.scene.scene import build_scene
 from synth.spec import convert_spec
 from validation.peers.forms import visible_half_axes_m
@@ -161,7 +162,7 @@ def _or_nan(half_axes_m: NDArray[np.float64] | None) -> NDArray[np.float64]:
 def _scores(sightings: list[Sighting], estimator: str) -> list[Cell]:
     """Cells of an estimator's row."""
     true_m = np.array([one.true_m for one in sightings])
-    truth = _sphericity(true_m)
+    truth = np.array([maximum_projection_sphericity(one) for one in true_m])
     if estimator == ESTIMATORS[0]:
         error = np.median(truth) - truth
         return [
@@ -173,7 +174,7 @@ def _scores(sightings: list[Sighting], estimator: str) -> list[Cell]:
         ]
     found_m = np.array([one.found_m[estimator] for one in sightings])
     known = np.isfinite(found_m).all(axis=1)
-    values = _sphericity(found_m[known])
+    values = np.array([maximum_projection_sphericity(one) for one in found_m[known]])
     error = values - truth[known]
     slips = np.abs(found_m[known] / true_m[known] - 1).mean(axis=0)
     tau = float(kendalltau(values, truth[known]).statistic) if len(values) > 1 else None
@@ -184,12 +185,6 @@ def _scores(sightings: list[Sighting], estimator: str) -> list[Cell]:
         tau,
         " / ".join(f"{100 * slip:.0f}" for slip in slips),
     ]
-
-
-def _sphericity(half_axes_m: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Maximum projection sphericity of half-axes (n, 3), longest first."""
-    a, b, c = half_axes_m.T
-    return np.asarray(np.cbrt(c * c / (a * b)))
 
 
 FORM_LIMITS_CASE = Case(

@@ -10,17 +10,12 @@ from numpy.typing import NDArray
 import rockshape
 from rockshape.ground.plane import Plane, fit_plane
 from synth.geometry.min_volume_box import smallest_box
+from synth.rocks.truth import maximum_projection_sphericity
 from validation.peers.declare import expected_trait
 
 COMMON = 0.75  # median over the scans that were developed on, apollo_sample 1, 3, 4, 7, 8 and 17
 
 Values = dict[str, list[float]]
-
-
-def _sphericity(half_axes_m: NDArray[np.float64]) -> float:
-    """Maximum projection sphericity of half-axes (3,), longest first."""
-    a, b, c = half_axes_m
-    return float(np.cbrt(c * c / (a * b)))
 
 
 @expected_trait(sphericity_3d="form")
@@ -41,7 +36,7 @@ def visible_box(
     plane = fit_plane(points_m[labels == 0])
     numbers = np.unique(labels[labels > 0])
     boxes = [visible_half_axes_m(points_m[labels == number], plane) for number in numbers]
-    return {"sphericity_3d": [_sphericity(half_axes_m) for half_axes_m in boxes]}
+    return {"sphericity_3d": [maximum_projection_sphericity(half_axes_m) for half_axes_m in boxes]}
 
 
 def visible_half_axes_m(points_m: NDArray[np.float64], plane: Plane | None) -> NDArray[np.float64]:
@@ -65,7 +60,9 @@ def constrained_ellipsoid(
     fits = {rock.number: rock.ellipsoid for rock in rocks}
     return {
         "sphericity_3d": [
-            float("nan") if (fit := fits.get(int(number))) is None else _sphericity(fit.half_axes_m)
+            float("nan")
+            if (fit := fits.get(int(number))) is None
+            else maximum_projection_sphericity(fit.half_axes_m)
             for number in np.unique(labels[labels > 0])
         ]
     }

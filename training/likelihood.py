@@ -68,7 +68,7 @@ def samples(picture: Singles, labels: NDArray[np.uint16]) -> tuple[Floats, Float
     whole = np.bincount(truth.ravel(), minlength=numbers)[1:]
     if numbers == 1:
         return features_of(tree), np.zeros(len(tree.sums))
-    union = tree.sums[:, :1] + whole - shared
+    union = tree.pixels.area[:, None] + whole - shared
     overlap = (shared / np.maximum(union, 1.0)).max(axis=1)
     return features_of(tree), np.clip((overlap - _NO_ROCK) / (_ROCK - _NO_ROCK), 0.0, 1.0)
 

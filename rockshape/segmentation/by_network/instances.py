@@ -24,7 +24,7 @@ def cut_rocks(answer: Answer) -> NDArray[np.int32]:
     if len(tree.children) == 0:
         return regions.labels
     gain = likelihood(features_of(tree)) - LEAST
-    gain[tree.sums[:, 0] < MIN_PIXELS] = 0.0
+    gain[tree.pixels.area < MIN_PIXELS] = 0.0
     rock = np.zeros(regions.count + 1, dtype=np.int32)
     rock[1:] = chosen(tree, gain)[: regions.count]
     return rock[regions.labels]

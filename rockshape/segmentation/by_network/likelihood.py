@@ -8,6 +8,7 @@ import numpy as np
 
 from rockshape.numerics.arrays import Floats
 from rockshape.segmentation.by_network.merge_tree import MergeTree
+from rockshape.segmentation.by_network.regions import PixelSums
 from rockshape.segmentation.by_network.weights import LIKELIHOOD, read_weights
 
 
@@ -41,26 +42,24 @@ def features_of(tree: MergeTree) -> Floats:
     - Logarithm to base 2 of the area, over 8; the area over that of the ellipse with the same
       moments; the outline's length over that of a disc's as digitised.
     """
-    area, frame, rock, rock2, border, distance, width, width2, x, y, xx, xy, yy = tree.sums.T
+    area, frame = tree.pixels.area, tree.pixels.frame
     safe = np.maximum(area, 1.0)
-    rock, border, distance, width, x, y = (
-        total / safe for total in (rock, border, distance, width, x, y)
-    )
-    own_xx = np.maximum(xx / safe - x * x, 0.0) + 1.0 / 12.0
-    own_yy = np.maximum(yy / safe - y * y, 0.0) + 1.0 / 12.0
-    own_xy = xy / safe - x * y
+    mean = PixelSums(*(total / safe for total in tree.pixels))
+    own_xx = np.maximum(mean.xx - mean.x * mean.x, 0.0) + 1.0 / 12.0
+    own_yy = np.maximum(mean.yy - mean.y * mean.y, 0.0) + 1.0 / 12.0
+    own_xy = mean.xy - mean.x * mean.y
     middle, half = (own_xx + own_yy) / 2.0, np.hypot((own_xx - own_yy) / 2.0, own_xy)
     least, greatest = np.maximum(middle - half, 1.0 / 12.0), middle + half
     rim, seam = np.maximum(tree.rim[:, 0], 1.0), np.maximum(tree.seam[:, 0], 1.0)
     return np.column_stack(
         [
-            rock,
-            distance,
-            border,
+            mean.rock,
+            mean.distance,
+            mean.border,
             tree.top,
-            np.sqrt(np.maximum(rock2 / safe - rock * rock, 0.0)),
-            np.sqrt(np.maximum(width2 / safe - width * width, 0.0)),
-            width - np.log2(4.0 * np.sqrt(least)),
+            np.sqrt(np.maximum(mean.rock_squared - mean.rock * mean.rock, 0.0)),
+            np.sqrt(np.maximum(mean.width_squared - mean.width * mean.width, 0.0)),
+            mean.width - np.log2(4.0 * np.sqrt(least)),
             tree.rim[:, 1] / rim,
             tree.seam[:, 1] / seam,
             tree.joint,

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rockshape.numerics.arrays import Floats
-from rockshape.segmentation.by_network.regions import SUMS, Regions
+from rockshape.segmentation.by_network.regions import PixelSums, Regions
 
 STRONGEST = 0.8  # mean probability of a border along a seam beyond which nothing is joined
 
@@ -19,12 +19,17 @@ class MergeTree:
     """Nodes 0 to n − 1 are regions 1 to n; each later one joins two earlier ones."""
 
     children: NDArray[np.intp]  # (nodes, 2), −1 of a region
-    sums: Floats  # (nodes, 13) as those of regions
+    sums: Floats  # (nodes, 13), columns as PixelSums
     top: Floats  # (nodes,) greatest distance
     rim: Floats  # (nodes, 2): length of the outline, and sum of border along it
     seam: Floats  # (nodes, 2): the same of all seams within
     joint: Floats  # (nodes,) mean border of the seam that joined its parts, 0 of a region
     beyond: Floats  # (nodes,) that of the seam at which it is joined to another, 1 where to none
+
+    @property
+    def pixels(self) -> PixelSums:
+        """Columns of `sums` by name."""
+        return PixelSums(*self.sums.T)
 
 
 def merge_tree(regions: Regions) -> MergeTree:
@@ -36,7 +41,7 @@ def merge_tree(regions: Regions) -> MergeTree:
     count = regions.count
     most = max(2 * count - 1, 0)
     children = np.full((most, 2), -1, dtype=np.intp)
-    sums, top = np.zeros((most, SUMS)), np.zeros(most)
+    sums, top = np.zeros((most, regions.sums.shape[1])), np.zeros(most)
     sums[:count], top[:count] = regions.sums[1:], regions.top[1:]
     rim, seam = np.zeros((most, 2)), np.zeros((most, 2))
     joint, beyond = np.zeros(most), np.ones(most)

@@ -1,6 +1,7 @@
 """Regions of an answer: the parts that rocks are put together from, and the seams between them."""
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +13,24 @@ from rockshape.segmentation.by_network.tops import tops
 
 ROCK = 0.35  # probability
 RISE = 0.1  # of the distance, over the greatest in the rock, above the pass to a higher top
-SUMS = 13  # of a region's pixels
+
+
+class PixelSums(NamedTuple):
+    """Sums over the pixels of each region or node, (n,) each; the columns of their tables."""
+
+    area: Floats
+    frame: Floats  # pixels at the picture's edge
+    rock: Floats
+    rock_squared: Floats
+    border: Floats
+    distance: Floats
+    width: Floats  # logarithm to base 2
+    width_squared: Floats
+    x: Floats
+    y: Floats
+    xx: Floats
+    xy: Floats
+    yy: Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,8 +38,7 @@ class Regions:
     """Regions 1 to n of a picture and what can be summed over them; row 0 is the ground's."""
 
     labels: NDArray[np.int32]  # (rows, cols)
-    sums: Floats  # (n + 1, 13): pixels, at the frame, rock, rock², border, distance, log width
-    # and its square, x, y, x², xy, y²
+    sums: Floats  # (n + 1, 13), columns as PixelSums
     top: Floats  # (n + 1,) greatest distance
     first: NDArray[np.intp]  # (seams,) the lesser region of each seam, 0 the ground
     second: NDArray[np.intp]  # (seams,)
@@ -54,24 +71,25 @@ def _sums(labels: NDArray[np.int32], answer: Answer, count: int) -> tuple[Floats
     row, col = whole_row.astype(np.float64), whole_col.astype(np.float64)
     last_row, last_col = labels.shape[0] - 1, labels.shape[1] - 1
     rock = answer.rock.ravel()[pixels].astype(np.float64)
-    distance = answer.distance.ravel()[pixels]
+    distance = answer.distance.ravel()[pixels].astype(np.float64)
     width = np.log2(answer.width_px.ravel()[pixels].astype(np.float64))
-    columns = [
-        None,
-        (row == 0) | (row == last_row) | (col == 0) | (col == last_col),
-        rock,
-        rock * rock,
-        answer.border.ravel()[pixels],
-        distance,
-        width,
-        width * width,
-        col,
-        row,
-        col * col,
-        col * row,
-        row * row,
-    ]
-    sums = [np.bincount(own, weights=one, minlength=count + 1) for one in columns]
+    edge = (row == 0) | (row == last_row) | (col == 0) | (col == last_col)
+    values = PixelSums(
+        area=np.ones_like(rock),
+        frame=edge.astype(np.float64),
+        rock=rock,
+        rock_squared=rock * rock,
+        border=answer.border.ravel()[pixels].astype(np.float64),
+        distance=distance,
+        width=width,
+        width_squared=width * width,
+        x=col,
+        y=row,
+        xx=col * col,
+        xy=col * row,
+        yy=row * row,
+    )
+    sums = [np.bincount(own, weights=one, minlength=count + 1) for one in values]
     top = np.zeros(count + 1)
     np.maximum.at(top, own, distance)
     return np.column_stack(sums), top

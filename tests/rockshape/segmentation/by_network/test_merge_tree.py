@@ -42,7 +42,7 @@ def test_the_weakest_seam_is_joined_first(tree):
 
 
 def test_sums_outlines_and_seams_add_up(tree):
-    assert tree.sums[:, 0].tolist() == [100.0, 100.0, 100.0, 200.0, 300.0]
+    assert tree.pixels.area.tolist() == [100.0, 100.0, 100.0, 200.0, 300.0]
     assert tree.rim[:, 0].tolist() == [40.0, 40.0, 40.0, 60.0, 80.0]
     assert tree.seam[:, 0].tolist() == [0.0, 0.0, 0.0, 10.0, 20.0]
     np.testing.assert_allclose(tree.seam[:, 1], [0.0, 0.0, 0.0, 2.0, 8.0], rtol=1e-6)

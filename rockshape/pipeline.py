@@ -222,8 +222,8 @@ def _flagged(rock: Rock, view: RockView, method: Method, scene: _Scene) -> Rock:
     found = scene.found_by_number.get(rock.number)
     flags = () if found is None else found.flags
     if method.flags is not None:
-        outline_error_px = NAN if found is None else found.outline_error_px
-        known = KnownOfRock(rock.visible_fraction, outline_error_px, rock.values)
+        sd_px, is_drawn = (NAN, False) if found is None else (found.outline_sd_px, found.is_drawn)
+        known = KnownOfRock(rock.visible_fraction, sd_px, is_drawn, rock.values)
         flags = (*flags, *method.flags(view, known))
     return replace(rock, flags=tuple(dict.fromkeys(flags)))
 

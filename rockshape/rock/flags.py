@@ -20,7 +20,8 @@ class KnownOfRock:
     """What is known of a rock beside its view."""
 
     visible_fraction: float  # of its ellipse; NaN where there is none
-    outline_error_px: float  # standard deviation of its outline; NaN of one that is taken as it is
+    outline_sd_px: float  # standard deviation of its outline; NaN where it is not known
+    is_drawn: bool  # whether a picture alone has drawn its outline
     values: Mapping[str, float]  # of the measures by their columns, NaN where there is none
 
 
@@ -29,8 +30,9 @@ def view_flags(view: RockView, known: KnownOfRock) -> tuple[str, ...]:
 
     `truncated`: touches the border of the frame. `small for roundness`: its roundness is read from
     less than 30 px of width. `soft outline`: its outline is unsure by more than a quarter of the
-    scale at which its form is read. `extrapolated axis`: its visible surface spans less than 0.8 of
-    its longest axis, the rest is inferred. `hidden`: less than 0.9 of its fitted ellipse is seen.
+    scale at which its form is read, or a picture alone has drawn it. `extrapolated axis`: its
+    visible surface spans less than 0.8 of its longest axis, the rest is inferred. `hidden`: less
+    than 0.9 of its fitted ellipse is seen.
     """
     return tuple(_flags(view, known))
 
@@ -41,12 +43,19 @@ def _flags(view: RockView, known: KnownOfRock) -> Iterator[str]:
     rounded = np.isfinite(known.values.get("roundness", np.nan))
     if rounded and view.feret_px[0] < MIN_ROUNDNESS_PX:
         yield "small for roundness"
-    if view.form is not None and known.outline_error_px > SOFT_SHARE * view.form.sigma:
+    if _soft(view, known):
         yield SOFT_OUTLINE
     if _extrapolated(view):
         yield "extrapolated axis"
     if known.visible_fraction < VISIBLE_SHARE:
         yield "hidden"
+
+
+def _soft(view: RockView, known: KnownOfRock) -> bool:
+    """Whether the outline is less sure than its form is read."""
+    if view.form is None:
+        return False
+    return known.is_drawn or known.outline_sd_px > SOFT_SHARE * view.form.sigma
 
 
 def _extrapolated(view: RockView) -> bool:

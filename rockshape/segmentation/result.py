@@ -30,10 +30,9 @@ class FoundRock:
         return float("nan") if self.outline is None else self.outline.sd_px
 
     @property
-    def outline_error_px(self) -> float:
-        """`outline_sd_px`, but infinite where a picture alone has drawn the outline."""
-        drawn = self.branch == "image" and self.outline is None
-        return float("inf") if drawn else self.outline_sd_px
+    def is_drawn(self) -> bool:
+        """Whether a picture alone has drawn its outline: it is the border of the pixels."""
+        return self.branch == "image" and self.outline is None
 
 
 @dataclass(frozen=True, eq=False)

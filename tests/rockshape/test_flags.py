@@ -61,9 +61,13 @@ def test_an_outline_unsure_by_a_share_of_its_forms_scale_is_soft() -> None:
     tell = find_method("robust").flags
     assert tell is not None
     # the scale is 0.12 of the radius, 6 px
-    assert tell(view, KnownOfRock(1.0, 1.3, {})) == ()
-    assert tell(view, KnownOfRock(1.0, 1.7, {})) == ("soft outline",)
-    assert tell(view, KnownOfRock(1.0, float("nan"), {})) == ()
+    for sd_px, is_drawn, expected in (
+        (1.3, False, ()),
+        (1.7, False, ("soft outline",)),
+        (float("nan"), False, ()),
+        (float("nan"), True, ("soft outline",)),
+    ):
+        assert tell(view, KnownOfRock(1.0, sd_px, is_drawn, {})) == expected
 
 
 @pytest.mark.parametrize(

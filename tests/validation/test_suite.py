@@ -1,5 +1,6 @@
 """Suite files: those of the package are whole, and a user's mistake is named."""
 
+import tomllib
 from importlib.resources import files
 
 import pytest
@@ -8,7 +9,7 @@ from validation.errors import InputError
 from validation.scores.scoring import definitions
 from validation.suite.gates import check_names
 from validation.suite.shipped import suite_names
-from validation.suite.suite import load_gates, load_suite
+from validation.suite.suite import as_suite, load_gates, load_suite
 
 CI = (files("validation") / "suites" / "ci.toml").read_text(encoding="utf-8")
 
@@ -75,6 +76,16 @@ def test_a_bad_key_is_named(tmp_path, old, new, named) -> None:
     with pytest.raises(InputError, match=named) as error:
         load_suite(str(path))
     assert str(error.value).startswith(str(path))
+
+
+def test_a_suite_without_gates_tells_the_faults_of_its_experiments_first() -> None:
+    table = tomllib.loads(CI)
+    del table["gate"]
+    with pytest.raises(InputError, match=r"^mine: gate: expected a list of at least 1"):
+        as_suite(table, where="mine")
+    table["experiment"][0]["seed"] = -1
+    with pytest.raises(InputError, match=r"^mine: experiment\[0\]\.seed: expected"):
+        as_suite(table, where="mine")
 
 
 def test_no_such_suite() -> None:

@@ -39,14 +39,17 @@ class Suite(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
 
 
 class _SuiteTable(Struct, forbid_unknown_fields=True, kw_only=True):
-    """A suite whose experiments are still tables: their kinds may come from its plug-ins."""
+    """A suite whose experiments are still tables, as their kinds may come from its plug-ins.
+
+    Its gates are read when the experiments have been, so that faults are told in this order.
+    """
 
     name: Name
     title: Text
     experiments: Annotated[tuple[dict[str, Any], ...], Meta(min_length=1)] = field(
         name="experiment"
     )
-    gates: Annotated[tuple[Gate, ...], Meta(min_length=1)] = field(name="gate")
+    gate: Any = None
     measures: tuple[MeasureSpec, ...] = field(name="measure", default=())
     plugins: tuple[Text, ...] = ()
 
@@ -57,21 +60,22 @@ def as_suite(table: Mapping[str, Any], *, where: str) -> Suite:
     Raises:
         InputError: a key or value that is not allowed, or a plug-in that cannot be imported.
     """
-    head = decode(
-        normalise_measures(resolve_likes(dict(table), where=where)), _SuiteTable, where=where
-    )
+    plain = normalise_measures(resolve_likes(dict(table), where=where))
+    head = decode(plain, _SuiteTable, where=where)
     for plugin in head.plugins:
         load_plugin(plugin)
     experiments = tuple(
         decode_experiment(each, where=where, path=f"experiment[{index}]")
         for index, each in enumerate(head.experiments)
     )
+    given = {key: value for key, value in plain.items() if key == "gate"}
+    gates = decode(given, GateFile, where=where).gate
     try:
         return Suite(
             name=head.name,
             title=head.title,
             experiments=experiments,
-            gates=head.gates,
+            gates=gates,
             measures=head.measures,
             plugins=head.plugins,
         )

@@ -1,11 +1,10 @@
 """Finder by a network: time beside a plain watershed of dark gaps."""
 
 import cv2
-import numpy as np
 from case import Case, Column, Table
 from timing import TIME_COLUMNS, best_of
 
-from rockshape.observation import Observation
+from rockshape.inputs.arrays import observe
 from rockshape.segmentation import FINDERS
 from synth.bed.make import make_tile
 from synth.spec.bed import BedSpec
@@ -19,13 +18,12 @@ def speed(*, sides_px: tuple[int, ...] = SIDES_PX, rounds: int = 3) -> list[Tabl
     rows = []
     for side in sides_px:
         bed = make_tile(BedSpec(seed=10_000, width_px=side, height_px=side), 0)
-        grey = np.asarray(bed.image.mean(axis=-1) / 255.0, dtype=np.float32)
-        seen = Observation(image=grey, colour=bed.image)
+        seen = observe(bed.image)
         works = {
             "watershed of dark gaps": lambda seen=seen: PEER_FINDERS["top-hat"].segment(seen),
             "network": lambda seen=seen: FINDERS["network"].segment(seen),
             "network without colour": lambda seen=seen: FINDERS["network"].segment(
-                Observation(image=seen.image)
+                observe(seen.image)
             ),
         }
         cv2.setNumThreads(2)

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from case import Case, Cell, Column, Table
 
-from rockshape.observation import Observation
+from rockshape.inputs.arrays import observe
 from rockshape.segmentation import FINDERS
 from synth import make_scene
 from synth.things.record import CLASSES
@@ -31,12 +31,12 @@ def where_outlines_lie(*, seeds: int = 4, sites: int = len(SITES)) -> list[Table
     seen_px: dict[str, list[int]] = {}
     outlines: dict[tuple[str, str], int] = {}
     for image, shown in _frames(seeds, SITES[-sites:]):
-        grey = np.asarray(image.mean(axis=-1) / 255.0, dtype=np.float32)
+        seen = observe(image)
         for name, pixels in zip(*np.unique(shown, return_counts=True), strict=True):
             if pixels >= LEAST_PX:
                 seen_px.setdefault(str(name), []).append(int(pixels))
         for finder in NAMES:
-            labels = FINDERS[finder].segment(Observation(image=grey, colour=image)).labels
+            labels = FINDERS[finder].segment(seen).labels
             for number in range(1, int(labels.max()) + 1):
                 names, counts = np.unique(shown[labels == number], return_counts=True)
                 key = (finder, str(names[counts.argmax()]))

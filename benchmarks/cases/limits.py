@@ -1,0 +1,123 @@
+"""Targets that are not met beside what an estimator with the true outline or surface would get."""
+
+from dataclasses import dataclass
+
+import pandas as pd
+from case import Case, Cell, Column, Table
+from cases.targets import TARGETS
+from limit_scores import Scored
+from outline_limits import EXACT, OURS, outline_scores, outline_table
+from outline_limits import READINGS as OF_OUTLINES
+from pebble_limits import LIKE, PEBBLES, pebble_scores, pebble_table
+from pebble_limits import READINGS as OF_PEBBLES
+from relief_limits import NOISY_RELIEF, RELIEF, relief_scores, relief_table
+from relief_limits import OURS as ROUGHNESS
+from suites import suite_scores
+
+
+@dataclass(frozen=True)
+class Limit:
+    """A target's score of ours beside that of an estimator to which something is told."""
+
+    target: str  # its score
+    ours: Scored
+    told: str
+    limit: Scored
+
+    def row(self) -> tuple[Cell, ...]:
+        """Row of the summary."""
+        target = next(one for one in TARGETS if one.score == self.target)
+        goal = f"{'≥' if target.above else '≤'} {target.bound:g}"
+        return (target.words, goal, *self.ours.cells(), self.told, *self.limit.cells()[:2])
+
+
+def limits(
+    *,
+    scenes: int = 12,
+    relief_scenes: int = 2,
+    draws: int = 20,
+    experiments: int = 2,
+    sets: int = 20,
+    charts: int = 5,
+    preset: str = "",
+    jobs: int = 1,
+) -> list[Table]:
+    """Score what is told of outlines, pebbles and reliefs, and set it beside ours."""
+    outlines = outline_scores(scenes=scenes, preset=preset)
+    pebbles = pebble_scores(experiments=experiments, sets=sets, charts=charts)
+    reliefs = relief_scores(scenes=relief_scenes, draws=draws, preset=preset)
+    found = [
+        Limit(
+            f"yard.robust.angularity_2d.{key}",
+            outlines[key, OF_OUTLINES[OURS]],
+            "each view's exact outline",
+            outlines[key, OF_OUTLINES[EXACT]],
+        )
+        for key in ("cv", "pairs_across")
+    ]
+    first = OF_PEBBLES[0].words
+    found += [
+        Limit(
+            f"{experiment}.robust.third.roundness.{key}",
+            pebbles[experiment, PEBBLES, first, key],
+            "no hand: drawn outlines, as wide and as round",
+            pebbles[experiment, LIKE, first, key],
+        )
+        for experiment, kind, words, key in pebbles
+        if kind == PEBBLES and words == first
+    ]
+    found += [
+        Limit(
+            f"relief.robust.{step}.roughness_3d.tau",
+            reliefs[step, ROUGHNESS],
+            told,
+            reliefs[step, limit],
+        )
+        for step, limit, told in (
+            ("0", RELIEF, "the smooth form under the surface in view"),
+            ("0p1", NOISY_RELIEF, "that, and the noise's power"),
+        )
+    ]
+    found.append(_fused(preset, jobs))
+    columns = (
+        Column("what"),
+        Column("target"),
+        Column("`robust`", "", ".3f"),
+        Column("95 %"),
+        Column("values", "", "d"),
+        Column("what another is told"),
+        Column("what it has", "", ".3f"),
+        Column("95 %"),
+    )
+    summary = Table(columns, [one.row() for one in found], name="summary")
+    return [summary, outline_table(outlines), pebble_table(pebbles), relief_table(reliefs)]
+
+
+def _fused(preset: str, jobs: int) -> Limit:
+    """Sphericity from four views by stereo, beside that from exact range."""
+    scores = suite_scores("fused", preset=preset, jobs=jobs).set_index("name")
+    name = "{}.robust.refined.sphericity_3d.error"
+    stereo, exact = (_scored(scores.loc[name.format(kind)]) for kind in ("stereo", "exact"))
+    return Limit(name.format("stereo"), stereo, "exact range", exact)
+
+
+def _scored(score: pd.Series) -> Scored:
+    return Scored(*(float(score[key]) for key in ("value", "low", "high")), int(score["count"]))
+
+
+LIMITS_CASE = Case(
+    name="limits",
+    what="targets not met beside what the true outline or surface would tell",
+    run=limits,
+    smallest={
+        "scenes": 1,
+        "relief_scenes": 1,
+        "draws": 1,
+        "experiments": 1,
+        "sets": 1,
+        "charts": 1,
+        "preset": "imp",
+        "jobs": 1,
+    },
+    slow=True,
+)

@@ -1,0 +1,50 @@
+"""Scores of values that no suite has, by the statistics and the intervals of the suites."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+import pandas as pd
+from case import Cell
+
+from validation.kinds.pebbles import judge as pebbles
+from validation.scores.agreement import STATISTICS
+from validation.scores.score import Definition, Estimate, Key, estimate
+from validation.statistics import Block
+
+KNOWN = {one.key: one for one in (*pebbles.STATISTICS, *STATISTICS)}
+
+
+@dataclass(frozen=True)
+class Scored:
+    """A score with its 95 % interval, NaN where it has none."""
+
+    value: float
+    low: float
+    high: float
+    count: int
+
+    @property
+    def interval(self) -> str:
+        """The interval as tables have it."""
+        found = np.isfinite([self.low, self.high]).all()
+        return f"{self.low:.3f} … {self.high:.3f}" if found else "–"
+
+    def cells(self) -> tuple[Cell, ...]:
+        """Value, interval and count."""
+        return self.value, self.interval, self.count
+
+
+def scored(statistic: str, blocks: Sequence[Block], *, name: str) -> Scored:
+    """Statistic of blocks of values; the bootstrap's draws depend on the name, as in a suite."""
+    one = KNOWN[statistic]
+    compute = partial(_computed, one.compute(blocks))
+    key = Key(name, "", "", "", statistic)
+    definition = Definition(key, one.title, one.unit, one.counted, one.better, compute)
+    score = estimate(definition, pd.DataFrame())
+    return Scored(score.value, score.low, score.high, score.count)
+
+
+def _computed(found: Estimate, records: pd.DataFrame) -> Estimate:  # noqa: ARG001
+    return found

@@ -39,7 +39,7 @@ def abraded(rock: RockModel, *, abrasion: float) -> RockModel:
     Raises:
         SpecError: a body that does not surround its centroid.
     """
-    mesh = even_mesh(rock, subdivisions=_SUBDIVISIONS)
+    mesh = _fine_mesh(rock)
     size_m = float(np.cbrt(0.75 * volume_m3(mesh) / np.pi))
     worn = flowed(mesh, time_m2=(_FULL * abrasion * size_m) ** 2 / 2.0)
     smooth = rock.truth.relief_rms_m == 0.0
@@ -63,6 +63,14 @@ def abraded(rock: RockModel, *, abrasion: float) -> RockModel:
         remesh=partial(_remeshed, scaled, truth.half_axes_box_m),
         has_edges=rock.has_edges,
     )
+
+
+def _fine_mesh(rock: RockModel) -> Mesh:
+    """Even mesh of a rock; its own where facets alone tell it and they are as many."""
+    known_by_facets = rock.form is None and rock.remesh is None
+    if known_by_facets and len(rock.mesh.faces) >= 20 * 4**_SUBDIVISIONS:
+        return rock.mesh
+    return even_mesh(rock, subdivisions=_SUBDIVISIONS)
 
 
 def flowed(mesh: Mesh, *, time_m2: float, steps: int = _STEPS) -> Mesh:

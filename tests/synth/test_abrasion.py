@@ -5,7 +5,7 @@ import pytest
 import trimesh
 
 from synth.errors import SpecError
-from synth.geometry.mesh import Mesh
+from synth.geometry.mesh import Mesh, area_m2
 from synth.rocks import quarry
 from synth.rocks.abrasion import abraded, flowed
 from synth.rocks.families.lumpy import LumpsUnion
@@ -79,6 +79,22 @@ def test_more_wear_is_rounder_and_never_longer():
         assert rock.truth.half_axes_box_m[0] == pytest.approx(0.2, rel=1e-9)
         assert rock.truth.roundness is None
         assert rock.truth.relief_rms_m == 0.0
+
+
+def test_a_realistic_rock_is_worn_on_its_own_facets():
+    fresh, worn = (
+        quarry(
+            RocksSpec(count=1, family="realistic", series="random", **wear),
+            rng=np.random.default_rng(4),
+        )[0]
+        for wear in ({}, {"abrasion": (0.3, 0.3)})
+    )
+    assert fresh.knobs["cuts"] == worn.knobs["cuts"]
+    assert (worn.mesh.faces == fresh.mesh.faces).all()
+    assert worn.truth.half_axes_box_m[0] == pytest.approx(fresh.truth.half_axes_box_m[0], rel=1e-9)
+    assert area_m2(worn.mesh) / worn.truth.volume_m3 ** (2 / 3) < (
+        area_m2(fresh.mesh) / fresh.truth.volume_m3 ** (2 / 3)
+    )
 
 
 def test_wear_leaves_the_forms_and_takes_relief():

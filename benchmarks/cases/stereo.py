@@ -1,6 +1,7 @@
 """Stereo error model against a matcher on the same views, at three picture qualities."""
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 from typing import Any
 
 import msgspec
@@ -15,7 +16,7 @@ from synth.render import choose_backend, open_renderer, render_view
 from synth.scene.scene import build_scene
 from synth.sensor import capture_view
 from synth.sensor.occlusion import contrast
-from synth.sensor.rig import rig_of
+from synth.sensor.rig import Rig, rig_of
 from synth.spec import convert_spec
 from synth.spec.sensor import NoiseSpec, SensorSpec
 
@@ -114,6 +115,12 @@ def ratio_of(groups: Sequence[Group], name: str) -> NDArray[np.float64]:
     return np.array([model / matcher for model, matcher in pairs])
 
 
+def _capture(found: list[Any], rig: Rig, view: Any, pose: Any, **settings: Any) -> None:
+    """Capture a view, and keep the disparities measured in it."""
+    taken = capture_view(view, pose, **settings)
+    found.append(rig.disparity_px(taken.depth_m))
+
+
 def preset_groups(preset: str, grounds: int = len(GROUNDS)) -> Iterator[Group]:
     """Yield what a preset shows at each quality, over the grounds together."""
     rig = rig_of(preset)
@@ -131,21 +138,20 @@ def preset_groups(preset: str, grounds: int = len(GROUNDS)) -> Iterator[Group]:
             found: list[NDArray[np.float64]] = []
             for place, noise in enumerate((quality.model, NoiseSpec(kind="sgm"))):
                 whole = msgspec.structs.replace(spec, noise=noise, sensor=quality.sensor)
-
-                def capture(whole: Any = whole, found: list[Any] = found) -> None:
-                    taken = capture_view(
-                        view,  # noqa: B023 - called at once
-                        scene.poses[0],  # noqa: B023
-                        spec=whole,
-                        scene=0,
-                        number=0,
-                        camera=scene.camera,  # noqa: B023
-                        stage=stage,  # noqa: B023
-                        renderer=renderer,  # noqa: B023
-                    )
-                    found.append(rig.disparity_px(taken.depth_m))
-
-                seconds[quality.name][place] += timed(capture).cpu_s / grounds
+                call = partial(
+                    _capture,
+                    found,
+                    rig,
+                    view,
+                    scene.poses[0],
+                    spec=whole,
+                    scene=0,
+                    number=0,
+                    camera=scene.camera,
+                    stage=stage,
+                    renderer=renderer,
+                )
+                seconds[quality.name][place] += timed(call).cpu_s / grounds
             exact_px = rig.disparity_px(view.depth_m)
             texture = contrast(view.light, NoiseSpec().window_px)
             pairs[quality.name].append(Pair(exact_px, found[0], found[1], texture))

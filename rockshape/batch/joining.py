@@ -20,12 +20,12 @@ About = Mapping[str, Any]
 _GROUP_ROWS = 20_000  # at least, of Parquet: what is kept of a group costs memory and space
 
 
-def _csv(tables: "Tables", stream: IO[bytes], about: About) -> None:  # noqa: ARG001
+def _csv(tables: "Tables", stream: IO[bytes], _about: About) -> None:
     for number, table in enumerate(tables):
         stream.write(table.to_csv(index=False, header=not number, float_format="%.9g").encode())
 
 
-def _json(tables: "Tables", stream: IO[bytes], about: About) -> None:  # noqa: ARG001
+def _json(tables: "Tables", stream: IO[bytes], _about: About) -> None:
     mark = b"[\n"
     for table in tables:
         rows = table.to_json(orient="records", lines=True, double_precision=12).strip()

@@ -141,8 +141,9 @@ def as_camera(like: object, *, shape: tuple[int, ...] | None = None) -> Camera:
             f"camera: distortion: expected a pinhole camera, its image, range and labels "
             f"undistorted, found {distortion}"
         )
-    if getattr(like, "skew", None):
-        raise InputError(f"camera: skew: expected none, found {like.skew}")  # type: ignore[attr-defined]
+    skew = getattr(like, "skew", None)
+    if skew:
+        raise InputError(f"camera: skew: expected none, found {skew}")
     unread = lens_term(getattr(like, "__dict__", {}), ("distortion", "skew"))
     if unread is not None:
         raise InputError(f"camera: expected a pinhole camera without distortion, found {unread}")

@@ -53,8 +53,8 @@ class _List(msgspec.Struct, forbid_unknown_fields=True):
 class _View(msgspec.Struct):
     """Pose of a view of a BOP scene, lengths in mm."""
 
-    cam_R_w2c: list[float]  # noqa: N815 - BOP's name
-    cam_t_w2c: list[float]
+    rotation: list[float] = msgspec.field(name="cam_R_w2c")
+    translation_mm: list[float] = msgspec.field(name="cam_t_w2c")
 
 
 def read_frames(path: Path, *, labels: str | None = None) -> list[Frame]:
@@ -82,14 +82,16 @@ def _scene(folder: Path, *, labels: str | None) -> Iterator[Frame]:
     for number, view in sorted(views.items(), key=lambda item: item[0].zfill(9)):
         name = number.zfill(6)
         where = f"{cameras}: view {number}"
-        if len(view.cam_R_w2c) != 9 or len(view.cam_t_w2c) != 3:
+        if len(view.rotation) != 9 or len(view.translation_mm) != 3:
             raise InputError(
                 f"{where}: expected 9 numbers of cam_R_w2c and 3 of cam_t_w2c, "
-                f"found {len(view.cam_R_w2c)} and {len(view.cam_t_w2c)}"
+                f"found {len(view.rotation)} and {len(view.translation_mm)}"
             )
         turn = pose_argument(
             f"{where}: cam_R_w2c",
-            np.column_stack([np.reshape(view.cam_R_w2c, (3, 3)), np.array(view.cam_t_w2c) / 1000]),
+            np.column_stack(
+                [np.reshape(view.rotation, (3, 3)), np.array(view.translation_mm) / 1000]
+            ),
         )
         masks = () if labels is None else tuple(sorted((folder / labels).glob(f"{name}_*.png")))
         yield Frame(

@@ -1,6 +1,7 @@
 """Range values that are no measurement: zeros, infinities, saturated steps, no-data constants."""
 
 from collections.abc import Collection, Iterator, Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +17,7 @@ REPEATED = 0.01  # of all pixels: a point that so many share exactly stands for 
 MIN_REPEATED = 100  # px
 
 
-def missing_in_raster(
-    values: NDArray[np.generic], *, no_data: Collection[float] = ()
-) -> dict[str, Mask]:
+def missing_in_raster(values: NDArray[Any], *, no_data: Collection[float] = ()) -> dict[str, Mask]:
     """Pixels (rows, cols) of z-depth, distance or disparity without a measurement, by reason.
 
     no_data are the constants that the file itself names. A pixel has one reason; NaN is none, for
@@ -26,20 +25,18 @@ def missing_in_raster(
     """
     reasons = {"no-data value": _among(values, no_data)}
     if np.issubdtype(values.dtype, np.integer):
-        greatest = np.iinfo(values.dtype).max  # type: ignore[type-var]
+        greatest = np.iinfo(values.dtype).max
         reasons["saturated"] = (values == greatest) | (values == SATURATED)
     else:
         reasons["infinite"] = np.isinf(values)
         reasons["saturated"] = _among(values, [SATURATED / 10.0**power for power in range(5)])
         reasons["no-data value"] |= np.isfinite(values) & (np.abs(values) >= FAR_VALUE)
-    reasons["zero"] = (values > -NEAR_VALUE) & (values < NEAR_VALUE)  # type: ignore[operator]
-    reasons["negative"] = values < 0  # type: ignore[operator]
+    reasons["zero"] = (values > -NEAR_VALUE) & (values < NEAR_VALUE)
+    reasons["negative"] = values < 0
     return _first_reasons(reasons)
 
 
-def missing_in_points(
-    points: NDArray[np.generic], *, no_data: Collection[float] = ()
-) -> dict[str, Mask]:
+def missing_in_points(points: NDArray[Any], *, no_data: Collection[float] = ()) -> dict[str, Mask]:
     """Pixels (rows, cols) of points (rows, cols, 3) without a measurement, by reason.
 
     No surface is seen at the origin, nor at the same point by a hundredth of all pixels. A point
@@ -48,7 +45,7 @@ def missing_in_points(
     constants = [*no_data, *NO_DATA]
     reasons = {"zero": (points == 0).all(axis=-1)}
     if np.issubdtype(points.dtype, np.integer):
-        limits = np.iinfo(points.dtype)  # type: ignore[type-var]
+        limits = np.iinfo(points.dtype)
         reasons["saturated"] = ((points == limits.max) | (points == limits.min)).any(axis=-1)
     else:
         reasons["infinite"] = np.isinf(points).any(axis=-1)

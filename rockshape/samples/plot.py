@@ -1,6 +1,6 @@
 """Plot of samples: grain-size curves with their intervals, Zingg's diagram and roundness."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,13 +17,14 @@ if TYPE_CHECKING:
 
 PERCENTS = tuple(float(percent) for percent in range(1, 100))
 _DRAWS = 300
+_Panel = Callable[["Axes", Mapping[str, Sample], Weighting], None]
 
 
 def plot_samples(samples: Mapping[str, Sample], weighting: Weighting) -> "Figure":
     """Figure of samples by name: what is finer by number, area or weight, and forms if known."""
     from matplotlib.figure import Figure  # noqa: PLC0415 - half a second that few need
 
-    panels = [_curves]
+    panels: list[_Panel] = [_curves]
     panels += [_zingg] if any(len(each.half_axes_m) for each in samples.values()) else []
     panels += [_roundness] if any(len(each.roundness) for each in samples.values()) else []
     figure = Figure(figsize=(5 * len(panels), 4.2), layout="constrained")
@@ -53,7 +54,7 @@ def _curves(axes: "Axes", samples: Mapping[str, Sample], weighting: Weighting) -
     axes.legend(fontsize=8)
 
 
-def _zingg(axes: "Axes", samples: Mapping[str, Sample], weighting: Weighting) -> None:  # noqa: ARG001
+def _zingg(axes: "Axes", samples: Mapping[str, Sample], _weighting: Weighting) -> None:
     for name, sample in samples.items():
         a, b, c = sample.half_axes_m.T
         axes.plot(c / b, b / a, "o", markersize=4, alpha=0.7, label=name)
@@ -65,7 +66,7 @@ def _zingg(axes: "Axes", samples: Mapping[str, Sample], weighting: Weighting) ->
     axes.set(xlim=(0, 1), ylim=(0, 1), xlabel="c/b", ylabel="b/a", title="form (Zingg)")
 
 
-def _roundness(axes: "Axes", samples: Mapping[str, Sample], weighting: Weighting) -> None:  # noqa: ARG001
+def _roundness(axes: "Axes", samples: Mapping[str, Sample], _weighting: Weighting) -> None:
     edges = np.linspace(0, 1, 11)
     for name, sample in samples.items():
         values = sample.roundness

@@ -8,6 +8,7 @@ import os
 import subprocess
 import sys
 from functools import cache
+from typing import cast
 
 from synth.camera.camera import RenderCamera
 from synth.errors import MissingBackendError
@@ -67,7 +68,7 @@ def open_renderer(backend: RendererName, stage: Stage, camera: RenderCamera) -> 
     """
     if backend == "embree" or camera.distortion is not None:
         embree = importlib.import_module("synth.render.embree")
-        return embree.EmbreeRenderer(stage, camera)  # type: ignore[no-any-return]
+        return cast(Renderer, embree.EmbreeRenderer(stage, camera))
     bound = os.environ.get("PYOPENGL_PLATFORM")
     if "OpenGL" in sys.modules and bound != backend:
         raise MissingBackendError(
@@ -75,7 +76,7 @@ def open_renderer(backend: RendererName, stage: Stage, camera: RenderCamera) -> 
         )
     os.environ["PYOPENGL_PLATFORM"] = backend
     gl = importlib.import_module("synth.render.gl")
-    return gl.GLRenderer(stage, camera)  # type: ignore[no-any-return]
+    return cast(Renderer, gl.GLRenderer(stage, camera))
 
 
 def _has_osmesa() -> bool:

@@ -14,7 +14,7 @@ from rockshape.pipeline import measure
 from validation.execution.measured import ViewCase
 from validation.execution.units import units_of
 from validation.execution.work import views_of
-from validation.mutations.mutation import Mutation
+from validation.mutations.mutation import Evaluate, Mutation
 from validation.records.join import join
 from validation.scores.scoring import claims_of, gate_scores, score_names
 from validation.suite.gates import evaluate, gates_on
@@ -72,11 +72,11 @@ def _joined(view: ViewCase, found: Measurement, table: pd.DataFrame) -> pd.DataF
 
 
 @contextmanager
-def _measures(method: str, evaluate_by_column: Mapping[str, object]) -> Iterator[None]:
+def _measures(method: str, evaluate_by_column: Mapping[str, Evaluate]) -> Iterator[None]:
     """Let the method consist of the mutated measures alone."""
     whole = methods()[method]
     mutated = tuple(
-        replace(measure, evaluate=evaluate_by_column[measure.column])  # type: ignore[arg-type]
+        replace(measure, evaluate=evaluate_by_column[measure.column])
         for measure in whole.measures
         if measure.column in evaluate_by_column
     )

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 from rockshape.observation import Observation
 from rockshape.rock.view import RockView
 
+Evaluate = Callable[[RockView], float]  # a measure's value of a rock
+
 
 @dataclass(frozen=True)
 class Mutation:
@@ -22,7 +24,7 @@ class Mutation:
     name: str
     what: str  # in words
     experiments: tuple[str, ...]
-    evaluate: Mapping[str, Callable[[RockView], float]] = field(default_factory=dict)  # by column
+    evaluate: Mapping[str, Evaluate] = field(default_factory=dict)  # by column
     patch: tuple[type, str, Callable[..., object]] | None = None  # class, method, replacement
     observe: Callable[[Observation], Observation] | None = None
     labels: Callable[[NDArray[np.int32]], NDArray[np.int32]] | None = None

@@ -1,6 +1,7 @@
 """Runner of a measure that is a command: it reads image files and writes a CSV."""
 
 import shlex
+from collections.abc import Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -33,6 +34,13 @@ def check_command(command: str) -> None:
             raise InputError(f"--measure: expected {place} in the command, found {command!r}")
 
 
+def _filled(word: str, texts: Mapping[str, str]) -> str:
+    """Word of a command with the texts of the places in it."""
+    for place, text in texts.items():
+        word = word.replace(place, text)
+    return word
+
+
 def run_command(command: str, seen: Seen, *, where: str, limit_s: float) -> pd.DataFrame:
     """Table that a command writes to {out}, a CSV with the column `rock`.
 
@@ -54,11 +62,7 @@ def run_command(command: str, seen: Seen, *, where: str, limit_s: float) -> pd.D
             words["{range}"] = ""
         else:
             np.savez(files["{range}"], xyz=seen.points_m)
-        argv = []
-        for word in shlex.split(command):
-            for place, text in words.items():
-                word = word.replace(place, text)  # noqa: PLW2901 (several may stand in a word)
-            argv.append(word)
+        argv = [_filled(word, words) for word in shlex.split(command)]
         ForeignProcess(argv, where=where).finish(limit_s)
         try:
             size = files["{out}"].stat().st_size

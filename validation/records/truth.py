@@ -7,7 +7,7 @@ import cv2
 import msgspec
 import numpy as np
 import pandas as pd
-from msgspec import Struct
+from msgspec import Struct, field
 from numpy.typing import NDArray
 
 from rockshape.fusion.pose import CameraPose
@@ -42,8 +42,8 @@ class RockInView(Struct, frozen=True, kw_only=True):
 class ViewPose(Struct, frozen=True, kw_only=True):
     """What `scene_camera.json` says of a view's pose, lengths in mm."""
 
-    cam_R_w2c: tuple[float, ...]  # noqa: N815 - BOP's name
-    cam_t_w2c: tuple[float, float, float]
+    rotation: tuple[float, ...] = field(name="cam_R_w2c")
+    translation_mm: tuple[float, float, float] = field(name="cam_t_w2c")
 
 
 class SceneTruth(Struct, frozen=True, kw_only=True):
@@ -101,7 +101,8 @@ def read_poses(path: Path) -> tuple[CameraPose, ...]:
     views = _decode(path, dict[str, ViewPose])
     return tuple(
         CameraPose.from_world_to_camera(
-            np.reshape(views[number].cam_R_w2c, (3, 3)), np.array(views[number].cam_t_w2c) / 1000
+            np.reshape(views[number].rotation, (3, 3)),
+            np.array(views[number].translation_mm) / 1000,
         )
         for number in sorted(views, key=int)
     )

@@ -57,7 +57,7 @@ class Experiment(
         """(series, scene number) of each unit, in the order of the records."""
         raise NotImplementedError(f"{type(self).__name__}.units")
 
-    def dependencies(self, series: str, scene: int) -> dict[str, Any]:  # noqa: ARG002
+    def dependencies(self, series: str, scene: int, /) -> dict[str, Any]:  # noqa: ARG002
         """Everything in the spec that the result of a unit depends on, as plain values."""
         return self.plain(without=("title",))
 
@@ -69,7 +69,7 @@ class Experiment(
         """Spec measured by these methods; itself where it measures nothing."""
         return msgspec.structs.replace(self, methods=methods) if self.is_measured else self
 
-    def first(self, scenes: int) -> Self:  # noqa: ARG002
+    def first(self, scenes: int, /) -> Self:  # noqa: ARG002
         """Spec with at most so many scenes, where a scene takes time."""
         return self
 

@@ -21,7 +21,7 @@ class ScenesExperiment(Experiment, frozen=True, kw_only=True):
         """Each scene."""
         return tuple(("", scene) for scene in range(self.scenes))
 
-    def dependencies(self, series: str, scene: int) -> dict[str, Any]:  # noqa: ARG002
+    def dependencies(self, _series: str, _scene: int, /) -> dict[str, Any]:
         """What a unit depends on."""
         return self.plain(without=("title", "scenes"))
 
@@ -29,6 +29,6 @@ class ScenesExperiment(Experiment, frozen=True, kw_only=True):
         """Spec with the renderer of this machine."""
         return msgspec.structs.replace(self, scene=with_renderer(self.scene))
 
-    def first(self, scenes: int) -> Self:
+    def first(self, scenes: int, /) -> Self:
         """Spec with at most so many scenes."""
         return msgspec.structs.replace(self, scenes=min(scenes, self.scenes))

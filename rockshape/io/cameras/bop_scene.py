@@ -21,7 +21,7 @@ _START = re.compile(rb'\s*\{\s*"\d+"\s*:\s*\{[^}]*"cam_(K|R_w2c|t_w2c)"')
 
 
 class _View(msgspec.Struct):
-    cam_K: list[float]  # noqa: N815 - BOP's name
+    matrix: list[float] = msgspec.field(name="cam_K")
     depth_scale: float | None = None
 
 
@@ -36,7 +36,7 @@ def read_scene_camera(file: "InputFile", info: ImageInfo | None) -> Lens:
     name = chosen_view(list(views), info, same=same)
     refuse_unread_terms(decode_json(file, dict[str, dict[str, object]])[name], _View)
     view = views[name]
-    return lens_of(view.cam_K, (None, None), info, depth_scale=view.depth_scale)
+    return lens_of(view.matrix, (None, None), info, depth_scale=view.depth_scale)
 
 
 FORMAT = CameraFormat(

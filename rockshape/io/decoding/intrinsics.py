@@ -45,7 +45,7 @@ def refuse_unread_terms(camera: Mapping[str, object], record: type[msgspec.Struc
 
     Raises: InputError for distortion or skew under another name, which would be ignored.
     """
-    unread = lens_term(camera, record.__struct_fields__)
+    unread = lens_term(camera, record.__struct_encode_fields__)
     if unread is not None:
         raise InputError(
             f"camera: expected no lens terms but those of this format (`rockshape formats`), "

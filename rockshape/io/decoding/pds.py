@@ -50,7 +50,7 @@ def image_of(file: "InputFile") -> tuple[str, Any]:
     Raises: InputError where it has none.
     """
     product = open_pds(file)
-    names = [str(name) for name in product.keys()]  # noqa: SIM118 - no mapping
+    names = list(map(str, product.keys()))
     images = [name for name in names if "IMAGE" in name.upper() and "HEADER" not in name.upper()]
     images += [name for name in names if "ARRAY" in name.upper()]
     for name in images or names:

@@ -11,6 +11,6 @@ def scenes_shown(experiment: DesignExperiment) -> None:
     """None: no pictures are kept of so many cells."""
 
 
-def section(run: Run, experiment: DesignExperiment, room: Room) -> Markup:  # noqa: ARG001
+def section(_run: Run, _experiment: DesignExperiment, _room: Room) -> Markup:
     """No section."""
     return Markup("")

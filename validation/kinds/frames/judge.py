@@ -41,7 +41,7 @@ STATISTICS = (
 
 def claims(
     experiment: FramesExperiment,
-    measures: Sequence[MeasureSpec],  # noqa: ARG001
+    _measures: Sequence[MeasureSpec],
 ) -> tuple[Claim, ...]:
     """Claims of each measure of the paper, by each method, on the places that the paper gives."""
     return tuple(
@@ -52,8 +52,8 @@ def claims(
 
 
 def view_claims(
-    experiment: FramesExperiment,  # noqa: ARG001
-    measures: Sequence[MeasureSpec],  # noqa: ARG001
+    _experiment: FramesExperiment,
+    _measures: Sequence[MeasureSpec],
 ) -> tuple[Claim, ...]:
     """None: what a frame truly shows is not known."""
     return ()

@@ -24,6 +24,6 @@ class FramesExperiment(Experiment, frozen=True, kw_only=True, tag="frames"):
         """Each frame."""
         return tuple(("", number) for number in range(len(self.frames)))
 
-    def dependencies(self, series: str, scene: int) -> dict[str, Any]:  # noqa: ARG002
+    def dependencies(self, _series: str, scene: int, /) -> dict[str, Any]:
         """What a unit depends on; the files are part of the package."""
         return self.plain(without=("title", "frames")) | {"frame": self.frames[scene]}

@@ -28,7 +28,7 @@ _TAU = tuple(statistic for statistic in ORDERS if statistic.key == "tau")
 
 def claims(
     experiment: FusedExperiment,
-    measures: Sequence[MeasureSpec],  # noqa: ARG001
+    _measures: Sequence[MeasureSpec],
 ) -> tuple[Claim, ...]:
     """Claims of the measures of form, of each view alone and under each kind of pose."""
     return tuple(
@@ -41,8 +41,8 @@ def claims(
 
 
 def view_claims(
-    experiment: FusedExperiment,  # noqa: ARG001
-    measures: Sequence[MeasureSpec],  # noqa: ARG001
+    _experiment: FusedExperiment,
+    _measures: Sequence[MeasureSpec],
 ) -> tuple[Claim, ...]:
     """None: views that are one show no outline."""
     return ()

@@ -62,7 +62,7 @@ class MultiviewExperiment(ScenesExperiment, frozen=True, kw_only=True, tag="mult
         """Whether a picture of each rock is kept."""
         return self.pictured > 0
 
-    def dependencies(self, series: str, scene: int) -> dict[str, Any]:
+    def dependencies(self, series: str, scene: int, /) -> dict[str, Any]:
         """What a unit depends on: the scene at its step, and which pictures are kept."""
         plain = self.plain(without=("title", "scenes", "varied", "pictured", "sweep"))
         return plain | {

@@ -79,8 +79,8 @@ def claims(experiment: PebblesExperiment, measures: Sequence[MeasureSpec]) -> tu
 
 
 def view_claims(
-    experiment: PebblesExperiment,  # noqa: ARG001
-    measures: Sequence[MeasureSpec],  # noqa: ARG001
+    _experiment: PebblesExperiment,
+    _measures: Sequence[MeasureSpec],
 ) -> tuple[Claim, ...]:
     """None: a pebble's shape is known by its mask alone."""
     return ()

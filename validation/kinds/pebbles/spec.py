@@ -32,7 +32,7 @@ class PebblesExperiment(PicturesExperiment, frozen=True, kw_only=True, tag="pebb
     series: Annotated[tuple[Resolution, ...], Meta(min_length=1)] = ("half", "third")
     min_width_px: Annotated[float, Meta(ge=12)] = 36.0  # equivalent diameter, full resolution
 
-    def dependencies(self, series: str, scene: int) -> dict[str, Any]:  # noqa: ARG002
+    def dependencies(self, _series: str, scene: int, /) -> dict[str, Any]:
         """What a unit depends on."""
         plain = self.plain(without=("title", "pictures"))
         return plain | {"picture": self.pictures.dependencies(scene)}

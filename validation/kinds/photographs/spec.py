@@ -26,7 +26,7 @@ class PhotographsExperiment(PicturesExperiment, frozen=True, kw_only=True, tag="
     block_px: Annotated[int, Meta(ge=16)] | None = None  # side of what is drawn for intervals
     pictured: Annotated[int, Meta(ge=0, le=12)] = 1  # pictures shown in the report
 
-    def dependencies(self, series: str, scene: int) -> dict[str, Any]:  # noqa: ARG002
+    def dependencies(self, _series: str, scene: int, /) -> dict[str, Any]:
         """What a unit depends on."""
         plain = self.plain(without=("title", "pictures", "pictured"))
         return plain | {

@@ -21,7 +21,7 @@ class RangeSource:
 
 _SENSED = RangeSource(lambda view: view.points_m, is_sensed=True)
 _OTHERS: Mapping[str, RangeSource] = {
-    "none": RangeSource(lambda view: None, has_range=False),  # noqa: ARG005
+    "none": RangeSource(lambda _view: None, has_range=False),
     "exact": RangeSource(lambda view: view.exact_m),
 }
 

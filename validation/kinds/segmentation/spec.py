@@ -43,7 +43,7 @@ class SegmentationExperiment(ScenesExperiment, frozen=True, kw_only=True, tag="s
                     f"found {self.scene.noise.kind!r}"
                 )
 
-    def dependencies(self, series: str, scene: int) -> dict[str, Any]:  # noqa: ARG002
+    def dependencies(self, _series: str, scene: int, /) -> dict[str, Any]:
         """What a unit depends on."""
         plain = self.plain(without=("title", "scenes", "pictured"))
         return plain | {"pictured": scene < self.pictured}

@@ -113,8 +113,8 @@ ranked_claims = claims
 
 
 def view_claims(
-    experiment: ShapesExperiment,  # noqa: ARG001
-    measures: Sequence[MeasureSpec],  # noqa: ARG001
+    _experiment: ShapesExperiment,
+    _measures: Sequence[MeasureSpec],
 ) -> tuple[Claim, ...]:
     """None: a drawing has one view, and its truths are what it shows."""
     return ()

@@ -34,7 +34,7 @@ class ShapesExperiment(Experiment, frozen=True, kw_only=True, tag="shapes"):
         """Whether a whole drawing is kept: the first of each series."""
         return drawing == 0
 
-    def dependencies(self, series: str, scene: int) -> dict[str, Any]:  # noqa: ARG002
+    def dependencies(self, _series: str, scene: int, /) -> dict[str, Any]:
         """What a unit depends on."""
         plain = self.plain(without=("title", "drawings", "series"))
         return plain | {"pictured": self.is_pictured(scene)}

@@ -12,8 +12,8 @@ __all__ = ["FEEDS", "claims", "definitions", "ranked_claims", "view_claims"]
 
 
 def claims(
-    experiment: DesignExperiment,  # noqa: ARG001
-    measures: Sequence[MeasureSpec],  # noqa: ARG001
+    _experiment: DesignExperiment,
+    _measures: Sequence[MeasureSpec],
 ) -> tuple[Claim, ...]:
     """None: a design asks what moves values, not what they are."""
     return ()

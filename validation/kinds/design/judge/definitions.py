@@ -97,7 +97,7 @@ def _definition(
 
 def definitions(
     experiment: DesignExperiment,
-    measures: Sequence[MeasureSpec],  # noqa: ARG001
+    _measures: Sequence[MeasureSpec],
 ) -> tuple[Definition, ...]:
     """Scores of an experiment, method by method and measure by measure."""
     return tuple(

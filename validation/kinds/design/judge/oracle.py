@@ -13,7 +13,7 @@ from validation.selfcheck.feeds import found_all, missed_all
 _VIEW = ["experiment", "scene", "instance", "method", "view"]
 
 
-def knowing(records: pd.DataFrame, claims: Sequence[Claim] = ()) -> pd.DataFrame:  # noqa: ARG001
+def knowing(records: pd.DataFrame, _claims: Sequence[Claim] = ()) -> pd.DataFrame:
     """Records of a designed experiment in which nothing but the view moves a rock's value.
 
     In every cell and state a measure of the outline is the truth of that view's outline. A measure
@@ -32,6 +32,6 @@ def knowing(records: pd.DataFrame, claims: Sequence[Claim] = ()) -> pd.DataFrame
 
 FEEDS = Feeds(
     oracle=knowing,
-    shuffled=lambda records, rng: missed_all(records),  # noqa: ARG005
-    mixed=lambda records, claims, rng: missed_all(records),  # noqa: ARG005
+    shuffled=lambda records, _rng: missed_all(records),
+    mixed=lambda records, _claims, _rng: missed_all(records),
 )

@@ -13,7 +13,7 @@ def scenes_shown(experiment: FramesExperiment) -> None:
     """None: the rocks that count are all in the table."""
 
 
-def section(run: Run, experiment: FramesExperiment, room: Room) -> Markup:  # noqa: ARG001
+def section(run: Run, experiment: FramesExperiment, _room: Room) -> Markup:
     """Section of an experiment."""
     return render(
         "frames.html",

@@ -13,6 +13,6 @@ def scenes_shown(experiment: FusedExperiment) -> None:
     """None: a fused rock has no picture of its own."""
 
 
-def section(run: Run, experiment: FusedExperiment, room: Room) -> Markup:  # noqa: ARG001
+def section(run: Run, experiment: FusedExperiment, _room: Room) -> Markup:
     """Section of an experiment."""
     return render("fused.html", __name__, e=experiment, rows=form_rows(run, experiment))

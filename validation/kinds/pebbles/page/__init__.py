@@ -16,7 +16,7 @@ def scenes_shown(experiment: PebblesExperiment) -> None:
     """None: pebbles are not shown one by one."""
 
 
-def section(run: Run, experiment: PebblesExperiment, room: Room) -> Markup:  # noqa: ARG001
+def section(run: Run, experiment: PebblesExperiment, _room: Room) -> Markup:
     """Section of an experiment."""
     scores = {score.key: score for score in run.scores}
     rows = [

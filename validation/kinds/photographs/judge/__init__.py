@@ -18,8 +18,8 @@ from validation.selfcheck.feeds import found_all, missed_all
 
 
 def claims(
-    experiment: PhotographsExperiment,  # noqa: ARG001
-    measures: Sequence[MeasureSpec],  # noqa: ARG001
+    _experiment: PhotographsExperiment,
+    _measures: Sequence[MeasureSpec],
 ) -> tuple[Claim, ...]:
     """None: no trait is varied in a photograph."""
     return ()
@@ -37,7 +37,7 @@ def scores_of(experiment: PhotographsExperiment) -> tuple[ScoreOf, ...]:
 
 def definitions(
     experiment: PhotographsExperiment,
-    measures: Sequence[MeasureSpec],  # noqa: ARG001
+    _measures: Sequence[MeasureSpec],
 ) -> tuple[Definition, ...]:
     """Scores of an experiment, finder by finder."""
     return tuple(
@@ -62,7 +62,7 @@ def _definition(experiment: str, series: str, score: ScoreOf) -> Definition:
     )
 
 
-def _oracle(records: pd.DataFrame, claims: Sequence[Claim]) -> pd.DataFrame:  # noqa: ARG001
+def _oracle(records: pd.DataFrame, _claims: Sequence[Claim]) -> pd.DataFrame:
     """Records in which every rock is found to the pixel."""
     fed = found_all(records)
     fed["common_px"] = fed["union_px"]
@@ -80,6 +80,6 @@ def _lost(records: pd.DataFrame) -> pd.DataFrame:
 
 FEEDS = Feeds(
     oracle=_oracle,
-    shuffled=lambda records, rng: _lost(records),  # noqa: ARG005
-    mixed=lambda records, claims, rng: _lost(records),  # noqa: ARG005
+    shuffled=lambda records, _rng: _lost(records),
+    mixed=lambda records, _claims, _rng: _lost(records),
 )

@@ -42,7 +42,7 @@ class Beds(PictureSource, frozen=True, kw_only=True, tag="beds"):
         """Tile's number."""
         return f"bed {number}"
 
-    def picture(self, seed: int, number: int) -> MaskedPicture:
+    def picture(self, seed: int, number: int, /) -> MaskedPicture:
         """Tile of a set of that seed."""
         from synth.bed.make import make_tile  # noqa: PLC0415 (slow to import)
 
@@ -54,7 +54,7 @@ class Beds(PictureSource, frozen=True, kw_only=True, tag="beds"):
             bed.image, TrueRocks(labels > 0, labels, np.ones(labels.shape, bool)), visible
         )
 
-    def dependencies(self, number: int) -> dict[str, Any]:  # noqa: ARG002
+    def dependencies(self, _number: int, /) -> dict[str, Any]:
         """Options of the bed; its number is the unit's."""
         return {"from": "beds", "bed": msgspec.to_builtins(self.bed)}
 

@@ -28,7 +28,7 @@ class PicturesExperiment(Experiment, frozen=True, kw_only=True):
         """Each picture."""
         return tuple(("", number) for number in range(self.pictures.count))
 
-    def first(self, scenes: int) -> Self:
+    def first(self, scenes: int, /) -> Self:
         """Spec with at most so many pictures."""
         return msgspec.structs.replace(self, pictures=self.pictures.first(scenes))
 

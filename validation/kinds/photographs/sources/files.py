@@ -43,7 +43,7 @@ class Files(PictureSource, frozen=True, kw_only=True, tag="files"):
         """File's name without its suffix."""
         return Path(self.files[number].image).stem
 
-    def picture(self, seed: int, number: int) -> MaskedPicture:  # noqa: ARG002
+    def picture(self, _seed: int, number: int, /) -> MaskedPicture:
         """Picture and mask, read."""
         from validation.kinds.photographs.sources.masks import (  # noqa: PLC0415 (brings SciPy)
             MASK_KINDS,
@@ -53,7 +53,7 @@ class Files(PictureSource, frozen=True, kw_only=True, tag="files"):
         file = self.files[number]
         return read_masked_picture(Path(file.image), Path(file.mask), MASK_KINDS[file.kind])
 
-    def dependencies(self, number: int) -> dict[str, Any]:
+    def dependencies(self, number: int, /) -> dict[str, Any]:
         """Contents of both files, and what the mask's values mean."""
         file = self.files[number]
         return {

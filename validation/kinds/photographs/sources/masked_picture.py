@@ -51,11 +51,11 @@ class PictureSource(
         """Whose pictures they are, a line each; none for made ones."""
         return ()
 
-    def picture(self, seed: int, number: int) -> MaskedPicture:
+    def picture(self, seed: int, number: int, /) -> MaskedPicture:
         """Picture of a number, read or made."""
         raise NotImplementedError
 
-    def dependencies(self, number: int) -> dict[str, Any]:
+    def dependencies(self, number: int, /) -> dict[str, Any]:
         """Everything that a picture depends on, as plain values."""
         raise NotImplementedError
 

@@ -73,7 +73,7 @@ class Shipped(PictureSource, frozen=True, kw_only=True, tag="shipped"):
         """Whose pictures they are."""
         return tuple(f"{name}: {SHIPPED[name].credit}" for name in self.names)
 
-    def picture(self, seed: int, number: int) -> MaskedPicture:  # noqa: ARG002
+    def picture(self, _seed: int, number: int, /) -> MaskedPicture:
         """Picture and mask, read."""
         from validation.kinds.photographs.sources.masks import (  # noqa: PLC0415 (brings SciPy)
             MASK_KINDS,
@@ -88,7 +88,7 @@ class Shipped(PictureSource, frozen=True, kw_only=True, tag="shipped"):
         with as_file(image) as image_path, as_file(mask) as mask_path:
             return read_masked_picture(image_path, mask_path, MASK_KINDS[picture.mask])
 
-    def dependencies(self, number: int) -> dict[str, Any]:
+    def dependencies(self, number: int, /) -> dict[str, Any]:
         """Name; the files are part of the package."""
         return {"from": "shipped", "name": self.names[number]}
 

@@ -12,8 +12,8 @@ __all__ = ["FEEDS", "claims", "definitions", "ranked_claims", "view_claims"]
 
 
 def claims(
-    experiment: SegmentationExperiment,  # noqa: ARG001
-    measures: Sequence[MeasureSpec],  # noqa: ARG001
+    _experiment: SegmentationExperiment,
+    _measures: Sequence[MeasureSpec],
 ) -> tuple[Claim, ...]:
     """None: a segmentation measures nothing."""
     return ()

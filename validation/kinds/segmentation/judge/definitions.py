@@ -82,7 +82,7 @@ def _has_ground(series: str) -> bool:
 
 def definitions(
     experiment: SegmentationExperiment,
-    measures: Sequence[MeasureSpec],  # noqa: ARG001
+    _measures: Sequence[MeasureSpec],
 ) -> tuple[Definition, ...]:
     """Scores of an experiment, way by way."""
 

@@ -11,7 +11,7 @@ from validation.selfcheck.feeds import found_all, missed_all
 _FAULTLESS = {"boundary_px": 0.0, "split": False, "merged": False, "ground_sigmas": 0.0}
 
 
-def _oracle(records: pd.DataFrame, claims: Sequence[Claim]) -> pd.DataFrame:  # noqa: ARG001
+def _oracle(records: pd.DataFrame, _claims: Sequence[Claim]) -> pd.DataFrame:
     """Records in which every rock is found to the pixel, and the ground with it."""
     fed = found_all(records)
     for column, value in _FAULTLESS.items():
@@ -21,6 +21,6 @@ def _oracle(records: pd.DataFrame, claims: Sequence[Claim]) -> pd.DataFrame:  # 
 
 FEEDS = Feeds(
     oracle=_oracle,
-    shuffled=lambda records, rng: missed_all(records),  # noqa: ARG005
-    mixed=lambda records, claims, rng: missed_all(records),  # noqa: ARG005
+    shuffled=lambda records, _rng: missed_all(records),
+    mixed=lambda records, _claims, _rng: missed_all(records),
 )

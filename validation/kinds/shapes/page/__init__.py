@@ -9,7 +9,7 @@ from validation.report.section import Room
 from validation.report.template import render
 
 
-def scenes_shown(experiment: ShapesExperiment) -> int:  # noqa: ARG001
+def scenes_shown(_experiment: ShapesExperiment) -> int:
     """One: the first drawing of each series."""
     return 1
 

@@ -22,7 +22,7 @@ from rockshape.rock.instances import Instance, Instances, Window
 from rockshape.rock.point_fit import PointCounts
 from rockshape.rock.sizes import Sizes, pixel_on_rock_m, sizes_of
 from rockshape.rock.view import RockView
-from rockshape.rock.visibility import visible_fraction
+from rockshape.rock.visibility import uncovered_fraction, visible_fraction
 from rockshape.segmentation.finders import Finder, find_finder
 from rockshape.segmentation.ignored import without_ignored
 from rockshape.uncertainty import Observables, Uncertainty, estimates, observe
@@ -190,6 +190,8 @@ def _rock(
     pixel_rows, pixel_cols = np.nonzero(part.mask)
     descriptors = _describe(view) if asked.descriptors or asked.sizes else UNRESOLVED
     visible = visible_fraction(whole, fits.ellipse, scene.instances, scene.observation.points_m)
+    ranged = len(view.points_m) > 0
+    surely = visible if ranged else uncovered_fraction(whole, fits.ellipse, scene.instances)
     rock = Rock(
         number=part.id,
         row=rows.start + float(pixel_rows.mean()),
@@ -212,7 +214,7 @@ def _rock(
         readings=readings,
         descriptors=descriptors if asked.descriptors else None,
         sizes=_sizes(view, descriptors, scene.observation) if asked.sizes else None,
-        observables=_observables(view, method, visible=visible),
+        observables=_observables(view, method, visible=surely),
     )
     return _estimated(_flagged(rock, view, method, scene), method)
 

@@ -45,12 +45,18 @@ STRATA: Mapping[str, Sequence[tuple[str, str, float, float]]] = {
         ("on the ground", "buried", -1, 0.02),
         ("sunk", "buried", 0.02, 1.1),
     ),
+    "hidden by others": (
+        ("up to 0.02", "hidden", -1, 0.02),
+        ("0.02 to 0.1", "hidden", 0.02, 0.1),
+        ("0.1 to 0.3", "hidden", 0.1, 0.3),
+        ("more", "hidden", 0.3, 1.1),
+    ),
 }
 LEVELS = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99)
 TAIL = (1 - COVERAGE) / 2
 
 
-def intervals(*, families: int = 88, scans: int = 88, jobs: int = 2) -> list[Table]:
+def intervals(*, families: int = 66, scans: int = 66, jobs: int = 2) -> list[Table]:
     """Make scenes of families and of scans, measure, and hold each interval to the true value."""
     with TemporaryDirectory() as folder:
         smoothed = [smoothed_scan(scan, Path(folder)) for scan in SCANS]
@@ -107,7 +113,7 @@ def _held(
     if name in AXES:
         held = held.div(held["truth"], axis=0)
     held = held.dropna(subset=["low"])  # of a rock of which much is hidden
-    kept = known.filter(regex="^(set|family|seen_.*|distance_m|buried)$")
+    kept = known.filter(regex="^(set|family|seen_.*|distance_m|buried|hidden)$")
     return kept.join(held, how="inner").assign(name=name)
 
 

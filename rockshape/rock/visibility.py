@@ -47,22 +47,45 @@ def visible_fraction(
     """
     if ellipse is None:
         return float("nan")
+    inside, window = _raster(ellipse, instances.shape)
+    if points_m is not None:
+        inside &= ~_nearer(rock, instances, points_m[window], inside, window)
+    return _share(inside, ellipse)
+
+
+def uncovered_fraction(rock: Instance, ellipse: Ellipse | None, instances: Instances) -> float:
+    """Share of a rock's fitted ellipse within the frame and not covered by any other rock, 0..1.
+
+    It is the least that is visible where no range tells which of two rocks is the nearer. NaN where
+    there is no ellipse.
+    """
+    if ellipse is None:
+        return float("nan")
+    inside, window = _raster(ellipse, instances.shape)
+    for other in instances.meeting(window):
+        if other.id != rock.id:
+            inside &= ~_within(other, window)
+    return _share(inside, ellipse)
+
+
+def _raster(ellipse: Ellipse, shape: tuple[int, int]) -> tuple[NDArray[np.bool_], Window]:
+    """Pixels of the frame inside an ellipse, on the window of its box."""
     cosine, sine = np.cos(ellipse.angle_rad), np.sin(ellipse.angle_rad)
     half_width = np.hypot(ellipse.major * cosine, ellipse.minor * sine)
     half_height = np.hypot(ellipse.major * sine, ellipse.minor * cosine)
-    rows, cols = instances.shape
+    rows, cols = shape
     top, bottom = _reach(ellipse.y, half_height, rows)
     left, right = _reach(ellipse.x, half_width, cols)
     y, x = np.mgrid[top:bottom, left:right]
     offset_x, offset_y = x - ellipse.x, y - ellipse.y
     u = (offset_x * cosine + offset_y * sine) / ellipse.major
     v = (offset_y * cosine - offset_x * sine) / ellipse.minor
-    inside = u * u + v * v <= 1
-    whole = np.pi * ellipse.major * ellipse.minor
-    if points_m is not None:
-        window = np.s_[top:bottom, left:right]
-        inside &= ~_nearer(rock, instances, points_m[window], inside, window)
-    return float(min(1.0, inside.sum() / whole))
+    return u * u + v * v <= 1, np.s_[top:bottom, left:right]
+
+
+def _share(inside: NDArray[np.bool_], ellipse: Ellipse) -> float:
+    """Share of an ellipse's area that pixels fill."""
+    return float(min(1.0, inside.sum() / (np.pi * ellipse.major * ellipse.minor)))
 
 
 def _reach(centre: float, half: float, size: int) -> tuple[int, int]:

@@ -13,6 +13,7 @@ from rockshape.numerics.arrays import Floats
 from rockshape.uncertainty.observables import NAMES, Observables
 
 FILE = "error_model.json"
+HIDDEN = NAMES.index("hidden")
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,7 @@ class ErrorModel:
 
     def knows(self, observables: Observables) -> bool:
         """Whether no more of a rock is hidden than of those of the fit."""
-        return observables.hidden <= self.most[NAMES.index("hidden")]
+        return bool(observables.features(0.0)[HIDDEN] <= self.most[HIDDEN])
 
     def interval(self, value: float, observables: Observables) -> tuple[float, float]:
         """Low and high end of the 90 % interval of the true value; the value lies within."""

@@ -10,6 +10,7 @@ from rockshape.rock.view import RockView
 NAMES = ("one", "width", "noise", "hidden", "value")
 _MIDDLE_PX = 64.0  # width about which its logarithm is taken
 _LEAST_NOISE = 1e-3  # of the rock's width: below it range counts as exact
+_LITTLE = 0.01  # hidden share about which its effect turns from its own to its logarithm's
 
 
 @dataclass(frozen=True)
@@ -18,17 +19,21 @@ class Observables:
 
     width_px: float  # least Feret diameter
     noise: float  # standard deviation of the range over the rock's width; 0 exact or without range
-    hidden: float  # share of its ellipse that is out of the frame or behind a nearer rock
+    hidden: float  # share of its ellipse out of the frame or behind a nearer rock; see `observe`
 
     def features(self, level: float) -> Floats:
         """Features (5,) in the order of NAMES for a value's error; level is of the value."""
         width = np.log2(max(self.width_px, 1.0) / _MIDDLE_PX) / 2.0
         noise = np.log10(max(self.noise, _LEAST_NOISE) / _LEAST_NOISE) / 2.0
-        return np.array([1.0, width, noise, self.hidden, level])
+        hidden = np.log10(1.0 + self.hidden / _LITTLE)
+        return np.array([1.0, width, noise, hidden, level])
 
 
 def observe(view: RockView, *, visible_fraction: float) -> Observables:
-    """Observables of a rock; visible_fraction is of its ellipse."""
+    """Observables of a rock; visible_fraction is of its ellipse.
+
+    Without range, which of two rocks is the nearer is unknown: each counts as the farther.
+    """
     width_px = view.feret_px[0] if view.resolved else 1.0
     hidden = 1.0 if np.isnan(visible_fraction) else float(np.clip(1 - visible_fraction, 0, 1))
     return Observables(float(width_px), _noise(view, width_px), hidden)

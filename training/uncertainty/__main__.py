@@ -8,7 +8,7 @@ from training.uncertainty.fit import LEFT_OUT, as_json, fit_models, left_out_mod
 from training.uncertainty.pairs import FAMILIES
 from training.uncertainty.table import PairSet, pair_table
 
-FITTED = PairSet("fitted", 1, 66, FAMILIES)
+FITTED = PairSet("fitted", 1, 99, FAMILIES)
 
 
 def main() -> None:

@@ -12,12 +12,13 @@ from scipy.optimize import minimize
 from rockshape.measurement import AXES
 from rockshape.numerics.arrays import Floats
 from rockshape.uncertainty import COVERAGE, ErrorModel
+from rockshape.uncertainty.error_model import HIDDEN
 from rockshape.uncertainty.observables import NAMES
 from training.uncertainty.table import observables_of
 
 LEFT_OUT = Path(__file__).parents[2] / "benchmarks" / "uncertainty_left_out.json"
 FEWEST = 100  # errors, below which a value gets no model
-OUTER = 0.02  # quantile at which features are held
+OUTER = 0.02  # quantile at which features are held, but for the hidden share's upper end
 # power of a value in which its errors add, where it is not the value's own: root mean squares, to
 # which the pixels add theirs, and axes, which have logarithms
 POWERS = {"ellipse_error": 2, "angularity_2d": 2} | dict.fromkeys(AXES, 0)
@@ -25,6 +26,7 @@ _FLOOR = 0.05  # of the median value, below which the scale falls no further
 _RIDGE = 1e-3
 _ROUND = 0.02  # of the mean error, below which the scale falls no further
 _ROUNDS = 200
+_WIDENING = ("noise", "hidden")  # features that make no value surer
 
 
 class Errors(NamedTuple):
@@ -131,9 +133,13 @@ def _left_out(errors: Errors) -> Floats:
 
 
 def _fit(errors: Errors) -> Solution:
-    """Scale of greatest likelihood, drawn a little towards one for all rocks."""
+    """Scale of greatest likelihood, drawn a little towards one for all rocks.
+
+    It never falls as noise or what is hidden grows.
+    """
     error, features = errors.error, errors.features
     least, most = np.quantile(features, [OUTER, 1 - OUTER], axis=0)
+    most[HIDDEN] = features[:, HIDDEN].max()  # beyond which no interval is given
     held = np.clip(features, least, most)
     mean, spread = held.mean(axis=0), held.std(axis=0)
     mean[0], spread[spread == 0] = 0.0, 1.0
@@ -150,7 +156,10 @@ def _fit(errors: Errors) -> Solution:
         return float(np.mean(level + over) + pull @ solution / 2), slope + pull
 
     start = np.zeros(features.shape[1])
-    found = minimize(cost, start, jac=True, method="L-BFGS-B", options={"maxiter": _ROUNDS}).x
+    bounds = [(0.0 if name in _WIDENING else None, None) for name in NAMES]
+    found = minimize(
+        cost, start, jac=True, method="L-BFGS-B", bounds=bounds, options={"maxiter": _ROUNDS}
+    ).x
     coefficients = found / spread
     coefficients[0] += np.log(size) - coefficients[1:] @ mean[1:]
     return Solution(coefficients, least, most)

@@ -2,7 +2,7 @@
 
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import msgspec
 import numpy as np
@@ -17,9 +17,10 @@ from synth.dataset.shape_truth import scene_gt_shape
 from synth.dataset.write import capture_frame
 from synth.errors import SpecError
 from synth.handle.truth import truth_table
-from synth.light import Stage, spec_stage
+from synth.light import spec_stage
 from synth.render import choose_backend, open_renderer
 from synth.render.view import RenderedView
+from synth.scene.laying import PlacedRock
 from synth.scene.scene import SceneModel, build_scene
 from synth.sensor import Capture
 from synth.spec import SceneSpec, convert_spec
@@ -42,7 +43,10 @@ NOISE = "stereo"
 CAMERAS = ("mer-navcam", "msl-navcam", "mer-hazcam", "imp")
 UNESTIMATED = replace(ROBUST, errors=dict)  # without the error models that are to be fitted
 VIEWS = 2
-ROCKS = ((0.05, 4), (np.inf, 2))  # in the fine camera's frame, by their size over the distance
+# rocks in the fine camera's frame, apart and crowded, by their size over the distance
+ROCKS = ((0.05, 4, 10), (np.inf, 2, 5))
+# distance of neighbours over the sum of their radii, and elevation of the camera in degrees
+APART, CROWDED = (1.2, (18.0, 50.0)), (1.0, (6.0, 22.0))
 WORN = (0.0, 1.0)  # abrasion of the rocks of every third scene of a family: fresh to smooth
 OWN_WEAR = "realistic"  # family that has a wear of its own
 # columns of the truth that are the same quantity as a value
@@ -54,7 +58,14 @@ OF_ROCK = {
 }
 OF_OUTLINE = {"axis_ratio": "outline_axis_ratio", "roundness": "outline_roundness"}
 MOST_BURIED = 0.02  # of a rock whose true outline is the one in sight
-LEAST_SEEN = 0.6  # of a rock, for its value to be compared
+LEAST_SEEN = 0.4  # of a rock, for its value to be compared
+
+
+class Kind(NamedTuple):
+    """What sets a scene apart from others of its family."""
+
+    worn: bool
+    crowded: bool  # rocks hide one another in part
 
 
 @dataclass(frozen=True)
@@ -67,6 +78,7 @@ class Pair:
     noise: str
     distance_m: float
     buried: float
+    hidden: float  # true share behind nearer rocks
     values: dict[str, float]
     truths: dict[str, float]
     observables: Observables
@@ -77,15 +89,16 @@ def made_pairs(
 ) -> Iterator[Pair]:
     """Yield the rocks of scenes of a seed, each from two sides, on exact and on noisy range.
 
-    Families take turns, and the rocks of every third scene of a family are worn. What is measured
-    by a fine camera from the same place, on exact range, stands for the truth where a quantity has
-    none of its own, and for that of an outline which the ground cuts.
+    Families take turns; of every three scenes of a family one has worn rocks, and one rocks that
+    hide one another in part. What a fine camera measures of a rock alone, from the same place and
+    on exact range, stands for the truth where a quantity has none of its own, and for that of an
+    outline which the ground cuts.
     """
     for scene in scenes:
         turn, which = divmod(scene, len(families))
         rng = np.random.default_rng([seed, 90, scene])
-        worn = turn % 3 == 1 and not scans
-        spec, camera = _spec(rng, seed * 1000 + scene, families[which], scans, worn=worn)
+        kind = Kind(worn=turn % 3 == 1 and not scans, crowded=turn % 3 == 2)
+        spec, camera = _spec(rng, seed * 1000 + scene, families[which], scans, kind)
         try:
             yield from _pairs(scene, spec, camera)
         except SpecError:  # no room for the rocks
@@ -97,24 +110,24 @@ def _spec(
     seed: int,
     family: str,
     scans: Sequence[str],
-    *,
-    worn: bool,
+    kind: Kind,
 ) -> tuple[SceneSpec, str]:
     """Scene as the fine camera sees it, and the coarse camera."""
     distance_m = float(np.exp(rng.uniform(np.log(1.5), np.log(7.0))))
     size = float(rng.uniform(0.02, 0.085))  # over the distance
+    spacing, elevation_deg = CROWDED if kind.crowded else APART
     rocks: dict[str, Any] = {
-        "count": next(count for most, count in ROCKS if size < most),
+        "count": next(counts[kind.crowded] for most, *counts in ROCKS if size < most),
         "family": family,
         "series": "random",
-        "spacing": 1.2,
+        "spacing": spacing,
         "diameter_m": [size * distance_m, 1.4 * size * distance_m],
     }
     if scans:
         rocks |= {"family": "scan", "scans": list(scans)}
-    if worn and family == OWN_WEAR:
+    if kind.worn and family == OWN_WEAR:
         rocks["realism"] = {"abrasion": list(WORN)}
-    elif worn:
+    elif kind.worn:
         rocks["abrasion"] = list(WORN)
     burial = [0.0, 0.4] if rng.uniform() < 0.3 else [0.0, 0.0]
     table = {
@@ -125,7 +138,7 @@ def _spec(
         "camera": {
             "preset": FINE,
             "distance_m": distance_m,
-            "elevation_deg": float(rng.uniform(18.0, 50.0)),
+            "elevation_deg": float(rng.uniform(*elevation_deg)),
             "supersample": 1,
         },
         "views": {"count": VIEWS, "start_deg": float(rng.uniform(0.0, 360.0))},
@@ -137,14 +150,12 @@ def _pairs(scene: int, fine: SceneSpec, camera: str) -> Iterator[Pair]:
     coarse = _noisy(_with_camera(fine, camera))
     near = build_scene(fine, 0)
     far = replace(near, camera=camera_of(coarse.camera))
-    stage = spec_stage(fine, 0, near)
-    reference = [_measured(fine, *taken) for taken in _views(fine, near, stage)]
-    taken = list(_views(coarse, far, stage))
+    alone = [_alone(fine, near, rock) for rock in near.rocks]
+    taken = list(_views(coarse, far))
     truth = plain(scene_gt_shape(far, 1, [view.sight() for view, _ in taken]))
     for number, (view, capture) in enumerate(taken):
         seen = truth["views"][str(number)]
         told = truth_table(truth["rocks"], seen).set_index("id").to_dict("index")
-        known = {rock.number: rock for rock in reference[number]}
         for noise, depth_m in (("none", view.depth_m), (NOISE, capture.depth_m)):
             noisy = replace(capture, depth_m=depth_m)
             for rock in _measured(coarse, view, noisy):
@@ -158,16 +169,22 @@ def _pairs(scene: int, fine: SceneSpec, camera: str) -> Iterator[Pair]:
                     noise=noise,
                     distance_m=float(own["depth_m"]),
                     buried=float(own["buried_fraction"]),
+                    hidden=1.0 - float(own["visible_fraction"]),
                     values=rock.quantities,
-                    truths=_truths(own, known.get(rock.number)),
+                    truths=_truths(own, alone[rock.number - 1][number]),
                     observables=rock.observables,
                 )
 
 
-def _views(
-    spec: SceneSpec, scene: SceneModel, stage: Stage
-) -> Iterator[tuple[RenderedView, Capture]]:
+def _alone(spec: SceneSpec, scene: SceneModel, rock: PlacedRock) -> list[Rock | None]:
+    """What is measured of one rock of a scene in each view without the others; None if nothing."""
+    taken = _views(spec, replace(scene, rocks=(rock,)))
+    return [next(iter(_measured(spec, *one)), None) for one in taken]
+
+
+def _views(spec: SceneSpec, scene: SceneModel) -> Iterator[tuple[RenderedView, Capture]]:
     """Yield each view of a scene, exact and as the sensor takes it."""
+    stage = spec_stage(spec, 0, scene)
     renderer = open_renderer(choose_backend(spec.renderer), stage, scene.camera)
     for number in range(VIEWS):
         yield capture_frame(spec, 0, number, scene=scene, stage=stage, renderer=renderer)

@@ -58,9 +58,8 @@ def test_features_beyond_the_fits_count_as_those_at_its_end() -> None:
 
 
 def test_a_rock_with_more_hidden_than_the_fit_has_seen_has_no_interval() -> None:
-    seen = model()
-    most = seen.most[NAMES.index("hidden")]
-    for hidden, known in ((most, True), (most + 0.01, False)):
+    seen = model()  # whose fit has seen log10(1 + 0.09 / 0.01) at the most
+    for hidden, known in ((0.089, True), (0.091, False)):
         found = estimates({"a": 0.5}, Observables(64.0, 0.0, hidden), {"a": seen}, {})["a"]
         assert np.isfinite([found.sd, found.low, found.high]).all() == known
 
@@ -92,10 +91,42 @@ def test_small_and_noisy_rocks_are_less_sure() -> None:
         small = Observables(width_px=20.0, noise=0.0, hidden=0.0)
         one = read_error_model()[name]
         assert one.deviation(0.5, small) > 1.5 * one.deviation(0.5, MIDDLE), name
-    for name in ("sphericity_3d", "axis_c_m"):
+    for name in ("sphericity_3d", "axis_a_m"):
         noisy = Observables(width_px=64.0, noise=0.1, hidden=0.0)
         one = read_error_model()[name]
         assert one.deviation(0.5, noisy) > 1.2 * one.deviation(0.5, MIDDLE), name
+
+
+def test_intervals_widen_with_what_is_hidden_and_with_noise() -> None:
+    for name, one in read_error_model().items():
+        widths = [
+            np.ptp(one.interval(0.3, Observables(64.0, 0.0, h))) for h in (0, 0.03, 0.1, 0.25)
+        ]
+        assert (np.diff(widths) >= 0).all(), name
+        noisy = [np.ptp(one.interval(0.3, Observables(64.0, n, 0.0))) for n in (0, 0.01, 0.1)]
+        assert (np.diff(noisy) >= 0).all(), name
+    for name in ("axis_ratio", "ellipse_error", "roundness"):
+        one = read_error_model()[name]
+        assert one.deviation(0.5, Observables(64.0, 0.0, 0.1)) > 2 * one.deviation(0.5, MIDDLE)
+
+
+def test_without_range_a_rock_that_another_cuts_may_be_hidden() -> None:
+    """A disc less what another takes of it: hidden unless range tells that it is the nearer."""
+    rows, cols = np.mgrid[:80, :120]
+    labels = np.where(np.hypot(rows - 40, cols - 45) < 25, 1, 0)
+    labels[np.hypot(rows - 40, cols - 80) < 25] = 2
+    camera = rockshape.Camera(fx=400, fy=400, cx=59.5, cy=39.5, width=120, height=80)
+
+    def hidden(**known: object) -> list[float]:
+        found = rockshape.measure(labels=labels, **known)
+        return [rock.observables.hidden for rock in found if rock.observables is not None]
+
+    farther = hidden(range_m=np.where(labels == 1, 2.5, 2.0), camera=camera)
+    nearer = hidden(range_m=np.where(labels == 1, 2.0, 2.5), camera=camera)
+    assert farther[0] > 0.03
+    assert nearer == pytest.approx([0.0, 0.0], abs=0.005)
+    assert hidden() == pytest.approx(farther)
+    assert rockshape.measure(labels=labels)[0].visible_fraction == pytest.approx(1.0, abs=0.01)
 
 
 @pytest.fixture(scope="module")

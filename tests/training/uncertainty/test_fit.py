@@ -112,6 +112,16 @@ def test_models_are_read_back_as_they_were_written(model) -> None:
         decode_models(content.replace(b"width", b"breadth"), where="here")
 
 
+def test_more_hidden_never_makes_a_value_surer() -> None:
+    """Errors that fall with what is hidden, by chance of the rocks at hand, widen no less."""
+    table = drawn(5, 900).assign(seen_hidden=np.linspace(0.0, 0.3, 900))
+    error = table["value_roundness"] - table["truth_roundness"]
+    table["value_roundness"] -= error * table["seen_hidden"] / 0.4
+    one = fit_models(table)["roundness"]
+    scales = [one.scale(0.5, Observables(64.0, 0.0, hidden)) for hidden in (0.0, 0.1, 0.3)]
+    assert scales[0] <= scales[1] <= scales[2]
+
+
 def test_too_few_errors_make_no_model() -> None:
     assert fit_models(drawn(1, 50)) == {}
     assert as_json({})["models"] == {}
@@ -132,6 +142,18 @@ def test_errors_of_axes_are_of_their_logarithms() -> None:
     seen = Observables(64.0, 0.0, 0.0)
     assert one.interval(3.0, seen) == pytest.approx(other.interval(3.0, seen), rel=1e-4)
     assert one.interval(6.0, seen) == pytest.approx([2 * end for end in one.interval(3.0, seen)])
+
+
+def test_the_truth_of_a_hidden_rock_is_of_the_rock_alone() -> None:
+    pairs = list(made_pairs(3, [32], FAMILIES))  # ellipsoids, crowded
+    hidden = [pair for pair in pairs if pair.hidden > 0.4]
+    assert hidden
+    for pair in hidden:
+        assert pair.values["ellipse_error"] > 0.2
+        assert pair.truths["ellipse_error"] < 0.06
+        assert pair.observables.hidden > 0.1
+    for pair in pairs:
+        assert pair.truths["ellipse_error"] < 0.06
 
 
 def test_a_pair_is_one_rock_from_one_place() -> None:

@@ -21,7 +21,7 @@ from rockshape.plugins.entry_points import load_records, with_entry_points
 from rockshape.rock.flags import KnownOfRock, view_flags
 from rockshape.rock.view import RockView
 from rockshape.segmentation.finders import FINDERS
-from rockshape.uncertainty import ErrorModel, read_error_model
+from rockshape.uncertainty import ErrorModels, read_error_models
 
 if TYPE_CHECKING:
     import numpy as np
@@ -54,14 +54,14 @@ class Method:
     ground: "Callable[[Observation], Ground | None]"  # the ground under rocks that are given
     fits: Callable[[RockView], Fits]
     measures: tuple[Measure, ...]  # in the order of the table
-    errors: Callable[[], Mapping[str, ErrorModel]] | None = None  # by column; None: not estimated
+    errors: Callable[[], ErrorModels] | None = None  # None: not estimated
     # what weakens a rock's values, beside what its finder tells
     flags: Callable[[RockView, KnownOfRock], tuple[str, ...]] | None = None
 
     @property
     def estimated(self) -> tuple[str, ...]:
         """Columns whose uncertainty is estimated, in the order of the table."""
-        return () if self.errors is None else tuple(self.errors())
+        return () if self.errors is None else tuple(self.errors().given)
 
     @property
     def value_ranges(self) -> dict[str, tuple[float, float]]:
@@ -108,7 +108,7 @@ ROBUST = Method(
     ground=_robust_ground,
     fits=_robust_fits,
     measures=measures.ROBUST,
-    errors=read_error_model,
+    errors=read_error_models,
     flags=view_flags,
 )
 BUILT_IN = (PAPER.name, ROBUST.name)

@@ -214,7 +214,9 @@ def _rock(
         readings=readings,
         descriptors=descriptors if asked.descriptors else None,
         sizes=_sizes(view, descriptors, scene.observation) if asked.sizes else None,
-        observables=_observables(view, method, visible=surely),
+        observables=_observables(
+            view, method, visible=surely, found=part.id in scene.found_by_number
+        ),
     )
     return _estimated(_flagged(rock, view, method, scene), method)
 
@@ -230,21 +232,24 @@ def _flagged(rock: Rock, view: RockView, method: Method, scene: _Scene) -> Rock:
     return replace(rock, flags=tuple(dict.fromkeys(flags)))
 
 
-def _observables(view: RockView, method: Method, *, visible: float) -> Observables | None:
+def _observables(
+    view: RockView, method: Method, *, visible: float, found: bool
+) -> Observables | None:
     """What the errors of a rock's values depend on; None where they are not estimated.
 
     They are not where the frame cuts the rock, nor where the method has no error model.
     """
     if method.errors is None or view.truncated:
         return None
-    return observe(view, visible_fraction=visible)
+    return observe(view, visible_fraction=visible, found=found)
 
 
 def _estimated(rock: Rock, method: Method) -> Rock:
     """Rock with the uncertainty of its values and axes, where it is estimated."""
     if method.errors is None or rock.observables is None:
         return rock
-    found = estimates(rock.quantities, rock.observables, method.errors(), method.value_ranges)
+    models = method.errors().of(rock.observables)
+    found = estimates(rock.quantities, rock.observables, models, method.value_ranges)
     readings = {name: _with(reading, found.get(name)) for name, reading in rock.readings.items()}
     return replace(rock, readings=readings, estimates=found)
 

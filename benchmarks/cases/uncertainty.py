@@ -1,4 +1,4 @@
-"""Coverage and width of the 90 % intervals on families left out in turn, and on scans."""
+"""Coverage and width of the 90 % intervals on families left out in turn, scans and photographs."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -12,19 +12,31 @@ import trimesh
 from case import Case, Cell, Column, Table
 from scipy.stats import norm
 
+import rockshape
 from rockshape.measurement import AXES
 from rockshape.method import ROBUST
 from rockshape.numerics.arrays import Floats
-from rockshape.uncertainty import COVERAGE, ErrorModel, estimates, read_error_model
+from rockshape.uncertainty import COVERAGE, ErrorModels, estimates, read_error_models
 from rockshape.uncertainty.error_model import decode_models
 from training.uncertainty.fit import LEFT_OUT, known_pairs, value_names
-from training.uncertainty.pairs import FAMILIES
+from training.uncertainty.pairs import (
+    FAMILIES,
+    FOUND,
+    GIVEN,
+    MIN_IOU,
+    NO_RANGE,
+    UNESTIMATED,
+    Way,
+)
 from training.uncertainty.table import PairSet, observables_of, pair_table
+from validation.kinds.photographs.sources.shipped import SHIPPED, Shipped
+from validation.records.match import match_labels
 
 # held out: the form was developed on apollo_sample 1, 3, 4, 7, 8 and 17
 SCANS = tuple(sorted((Path(__file__).parents[2] / "examples" / "rocks").glob("*.ply")))
-SCAN = "scan"
-MADE, SCANNED = "families left out, each in turn", "scans"
+SCAN, PHOTOGRAPH = "scan", "photograph"
+PHOTOGRAPHS = tuple(name for name, one in SHIPPED.items() if one.has_instances)
+MADE, SCANNED, BY_HAND = "families left out, each in turn", "scans", "photographs"
 SUBDIVISIONS = 3  # of a scan's facets, whose edges are a quarter of a radius long
 STRATA: Mapping[str, Sequence[tuple[str, str, float, float]]] = {
     "width": (
@@ -58,15 +70,65 @@ TAIL = (1 - COVERAGE) / 2
 
 def intervals(*, families: int = 66, scans: int = 66, jobs: int = 2) -> list[Table]:
     """Make scenes of families and of scans, measure, and hold each interval to the true value."""
+    return tables(_held_to_truth(_made(families, scans, GIVEN, jobs=jobs)))
+
+
+def found_intervals(
+    *, families: int = 44, scans: int = 33, photographs: int = 8, jobs: int = 2
+) -> list[Table]:
+    """The same of rocks that are found, and of those of photographs.
+
+    A photograph's rocks are held to what is measured of the outlines that a person drew.
+    """
+    pairs = [
+        _made(families, scans, FOUND, jobs=jobs),
+        *(photograph_pairs(name) for name in PHOTOGRAPHS[:photographs]),
+    ]
+    return tables(_held_to_truth(pd.concat(pairs, ignore_index=True)))
+
+
+def _made(families: int, scans: int, ways: Sequence[Way], *, jobs: int) -> pd.DataFrame:
+    """Pairs of scenes of each family and of scans."""
     with TemporaryDirectory() as folder:
         smoothed = [smoothed_scan(scan, Path(folder)) for scan in SCANS]
         sets = (
-            PairSet(MADE, 10_000, families, FAMILIES),
-            PairSet(SCANNED, 10_200, scans, (SCAN,), smoothed),
+            PairSet(MADE, 10_000, families, FAMILIES, ways=ways),
+            PairSet(SCANNED, 10_200, scans, (SCAN,), smoothed, ways=ways),
         )
-        pairs = pd.concat([pair_table(one, jobs=jobs) for one in sets], ignore_index=True)
+        return pd.concat([pair_table(one, jobs=jobs) for one in sets], ignore_index=True)
+
+
+def photograph_pairs(name: str) -> pd.DataFrame:
+    """Pairs of a photograph's whole rocks: as the network draws them, and as a person does."""
+    picture = Shipped(names=(name,)).picture(0, 0)
+    labels = np.where(picture.truth.judged, picture.truth.labels, 0)
+    by_hand = rockshape.measure(picture.image, labels=labels, method=UNESTIMATED)
+    found = rockshape.measure(picture.image, find="network", method=UNESTIMATED)
+    true, measured = (
+        {rock.number: rock for rock in rocks if not rock.truncated} for rocks in (by_hand, found)
+    )
+    rows = [
+        {
+            "family": PHOTOGRAPH,
+            "set": BY_HAND,
+            "noise": NO_RANGE,
+            **{f"value_{key}": value for key, value in measured[match.measured].values.items()},
+            **{f"truth_{key}": value for key, value in true[match.truth].values.items()},
+            **{
+                f"seen_{key}": value
+                for key, value in vars(measured[match.measured].observables).items()
+            },
+        }
+        for match in match_labels(by_hand.labels, found.labels, min_iou=MIN_IOU)
+        if match.truth in true and match.measured in measured
+    ]
+    return pd.DataFrame(rows)
+
+
+def _held_to_truth(pairs: pd.DataFrame) -> pd.DataFrame:
+    """Interval of each value of each pair, beside the truth."""
     models = models_of_families()
-    return tables(pd.concat([_held(pairs, name, models) for name in value_names(pairs)]))
+    return pd.concat([_held(pairs, name, models) for name in value_names(pairs)])
 
 
 def smoothed_scan(scan: Path, folder: Path) -> str:
@@ -83,14 +145,14 @@ def smoothed_scan(scan: Path, folder: Path) -> str:
     return str(place)
 
 
-def models_of_families() -> dict[str, Mapping[str, ErrorModel]]:
-    """Error models by a rock's family: fitted to all others, and for scans the package's."""
+def models_of_families() -> dict[str, ErrorModels]:
+    """Error models by a rock's family: fitted to all others, and of real rocks the package's."""
     left_out = json.loads(LEFT_OUT.read_text(encoding="utf-8"))
-    models: dict[str, Mapping[str, ErrorModel]] = {
+    models = {
         family: decode_models(json.dumps(each).encode(), where=LEFT_OUT.name)
         for family, each in left_out.items()
     }
-    return models | {SCAN: read_error_model()}
+    return models | dict.fromkeys((SCAN, PHOTOGRAPH), read_error_models())
 
 
 def tables(held: pd.DataFrame) -> list[Table]:
@@ -98,14 +160,12 @@ def tables(held: pd.DataFrame) -> list[Table]:
     return [_by_value(held), _by_stratum(held), _by_family(held), _by_level(held)]
 
 
-def _held(
-    pairs: pd.DataFrame, name: str, models: Mapping[str, Mapping[str, ErrorModel]]
-) -> pd.DataFrame:
+def _held(pairs: pd.DataFrame, name: str, models: Mapping[str, ErrorModels]) -> pd.DataFrame:
     """Intervals of one value beside the truth, all over the truth for an axis."""
     known = known_pairs(pairs, name)
     families, values = known["family"].tolist(), known[f"value_{name}"].tolist()
     found = [
-        astuple(estimates({name: value}, seen, models[family], ROBUST.value_ranges)[name])
+        astuple(estimates({name: value}, seen, models[family].of(seen), ROBUST.value_ranges)[name])
         for family, value, seen in zip(families, values, observables_of(known), strict=True)
     ]
     held = pd.DataFrame(found, columns=["sd", "low", "high"], index=known.index)
@@ -114,6 +174,7 @@ def _held(
         held = held.div(held["truth"], axis=0)
     held = held.dropna(subset=["low"])  # of a rock of which much is hidden
     kept = known.filter(regex="^(set|family|seen_.*|distance_m|buried|hidden)$")
+    kept["seen_noise"] = kept["seen_noise"].where(known["noise"] != NO_RANGE)
     return kept.join(held, how="inner").assign(name=name)
 
 
@@ -179,8 +240,8 @@ def _by_stratum(held: pd.DataFrame) -> Table:
 
 
 def _by_family(held: pd.DataFrame) -> Table:
-    """Coverage by family; that of scans is the last."""
-    names = [name for name in (*FAMILIES, SCAN) if (held["family"] == name).any()]
+    """Coverage by family; scans and photographs are the last."""
+    names = [name for name in (*FAMILIES, SCAN, PHOTOGRAPH) if (held["family"] == name).any()]
     rows = [(name, *_coverage(held[held["family"] == name])) for name in names]
     return Table((Column("family"), *COVERAGES), rows, name="families")
 
@@ -222,5 +283,13 @@ UNCERTAINTY_CASE = Case(
     what="coverage and width of the 90 % intervals on families left out and on scans",
     run=intervals,
     smallest={"families": 2, "scans": 1, "jobs": 1},
+    slow=True,
+)
+
+FOUND_UNCERTAINTY_CASE = Case(
+    name="found_uncertainty",
+    what="coverage and width of the 90 % intervals of rocks that are found, on photographs too",
+    run=found_intervals,
+    smallest={"families": 2, "scans": 1, "photographs": 1, "jobs": 1},
     slow=True,
 )

@@ -1,7 +1,7 @@
 """Error model of a measure: how far its values lie from the true ones, by a rock's observables."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from importlib.resources import files
 from types import MappingProxyType
@@ -73,20 +73,34 @@ class ErrorModel:
         return float(max(value**self.power + step, 0.0) ** (1.0 / self.power))
 
 
+@dataclass(frozen=True)
+class ErrorModels:
+    """Error models by the columns of measures and axes, for both kinds of outline."""
+
+    # of outlines that labels give, taken to be right, and of those that a finder drew
+    given: Mapping[str, ErrorModel] = field(default_factory=dict)
+    found: Mapping[str, ErrorModel] = field(default_factory=dict)
+
+    def of(self, observables: Observables) -> Mapping[str, ErrorModel]:
+        """Models for a rock's kind of outline."""
+        return self.found if observables.found else self.given
+
+
 class _File(msgspec.Struct):
     """Content of the file."""
 
     features: tuple[str, ...]
-    models: dict[str, ErrorModel]
+    given: dict[str, ErrorModel]
+    found: dict[str, ErrorModel]
 
 
 @cache
-def read_error_model() -> Mapping[str, ErrorModel]:
-    """Error models of the package, by the columns of measures and axes."""
+def read_error_models() -> ErrorModels:
+    """Error models of the package."""
     return decode_models((files(__package__) / FILE).read_bytes(), where=FILE)
 
 
-def decode_models(content: bytes, *, where: str) -> Mapping[str, ErrorModel]:
+def decode_models(content: bytes, *, where: str) -> ErrorModels:
     """Error models from the content of a file that `python -m training.uncertainty` wrote.
 
     Raises: ValueError for models of other features.
@@ -94,4 +108,4 @@ def decode_models(content: bytes, *, where: str) -> Mapping[str, ErrorModel]:
     told = msgspec.json.decode(content, type=_File)
     if told.features != NAMES:
         raise ValueError(f"{where}: expected the features {NAMES}, found {told.features}")
-    return MappingProxyType(told.models)
+    return ErrorModels(MappingProxyType(told.given), MappingProxyType(told.found))

@@ -20,6 +20,7 @@ class Observables:
     width_px: float  # least Feret diameter
     noise: float  # standard deviation of the range over the rock's width; 0 exact or without range
     hidden: float  # share of its ellipse out of the frame or behind a nearer rock; see `observe`
+    found: bool = False  # a finder drew its outline, which may be wrong
 
     def features(self, level: float) -> Floats:
         """Features (5,) in the order of NAMES for a value's error; level is of the value."""
@@ -29,14 +30,14 @@ class Observables:
         return np.array([1.0, width, noise, hidden, level])
 
 
-def observe(view: RockView, *, visible_fraction: float) -> Observables:
-    """Observables of a rock; visible_fraction is of its ellipse.
+def observe(view: RockView, *, visible_fraction: float, found: bool) -> Observables:
+    """Observables of a rock; visible_fraction is of its ellipse, found whether a finder drew it.
 
     Without range, which of two rocks is the nearer is unknown: each counts as the farther.
     """
     width_px = view.feret_px[0] if view.resolved else 1.0
     hidden = 1.0 if np.isnan(visible_fraction) else float(np.clip(1 - visible_fraction, 0, 1))
-    return Observables(float(width_px), _noise(view, width_px), hidden)
+    return Observables(float(width_px), _noise(view, width_px), hidden, found)
 
 
 def _noise(view: RockView, width_px: float) -> float:

@@ -4,11 +4,16 @@ import argparse
 import json
 from pathlib import Path
 
+import pandas as pd
+
 from training.uncertainty.fit import LEFT_OUT, as_json, fit_models, left_out_models
-from training.uncertainty.pairs import FAMILIES
+from training.uncertainty.pairs import FAMILIES, FOUND
 from training.uncertainty.table import PairSet, pair_table
 
-FITTED = PairSet("fitted", 1, 99, FAMILIES)
+FITTED = (
+    PairSet("given", 1, 99, FAMILIES),
+    PairSet("found", 1, 66, FAMILIES, ways=FOUND),
+)
 
 
 def main() -> None:
@@ -24,12 +29,12 @@ def main() -> None:
     )
     parser.add_argument("--jobs", type=int, default=2, help="processes (%(default)s)")
     said = parser.parse_args()
-    pairs = pair_table(FITTED, jobs=said.jobs)
+    pairs = pd.concat([pair_table(one, jobs=said.jobs) for one in FITTED], ignore_index=True)
     models = fit_models(pairs)
     said.file.write_text(json.dumps(as_json(models), indent=1) + "\n", encoding="utf-8")
     left_out = {family: as_json(each) for family, each in left_out_models(pairs).items()}
     said.left_out.write_text(json.dumps(left_out) + "\n", encoding="utf-8")
-    print(f"written: {said.file}, {len(models)} models; {said.left_out}, {len(left_out)} families")
+    print(f"written: {said.file}; {said.left_out}, {len(left_out)} families")
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ from scipy.optimize import minimize
 
 from rockshape.measurement import AXES
 from rockshape.numerics.arrays import Floats
-from rockshape.uncertainty import COVERAGE, ErrorModel
+from rockshape.uncertainty import COVERAGE, ErrorModel, ErrorModels
 from rockshape.uncertainty.error_model import HIDDEN
 from rockshape.uncertainty.observables import NAMES
 from training.uncertainty.table import observables_of
@@ -54,7 +54,13 @@ class Solution(NamedTuple):
         return np.asarray(errors.error / np.exp(held @ self.coefficients))
 
 
-def fit_models(pairs: pd.DataFrame) -> dict[str, ErrorModel]:
+def fit_models(pairs: pd.DataFrame) -> ErrorModels:
+    """Error models of rocks whose outlines are given, and of those that are found."""
+    found = pairs["seen_found"].to_numpy(dtype=bool)
+    return ErrorModels(given=fit_by_value(pairs[~found]), found=fit_by_value(pairs[found]))
+
+
+def fit_by_value(pairs: pd.DataFrame) -> dict[str, ErrorModel]:
     """Error model of each value that has errors enough.
 
     The scale is that of a Laplace distribution of greatest likelihood on all rows. The interval's
@@ -89,7 +95,7 @@ def fit_models(pairs: pd.DataFrame) -> dict[str, ErrorModel]:
     return models
 
 
-def left_out_models(pairs: pd.DataFrame) -> dict[str, dict[str, ErrorModel]]:
+def left_out_models(pairs: pd.DataFrame) -> dict[str, ErrorModels]:
     """Error models by family, fitted to all others."""
     return {own: fit_models(pairs[pairs["family"] != own]) for own in pairs["family"].unique()}
 
@@ -174,9 +180,10 @@ def _short(number: float) -> float:
     return float(f"{number:.5g}")
 
 
-def as_json(models: Mapping[str, ErrorModel]) -> dict[str, object]:
+def as_json(models: ErrorModels) -> dict[str, object]:
     """Content of the package's file."""
-    return {
-        "features": list(NAMES),
-        "models": {name: dict(vars(model)) for name, model in models.items()},
-    }
+    return {"features": list(NAMES), "given": _plain(models.given), "found": _plain(models.found)}
+
+
+def _plain(models: Mapping[str, ErrorModel]) -> dict[str, object]:
+    return {name: dict(vars(model)) for name, model in models.items()}

@@ -6,11 +6,12 @@ from typing import Any, NamedTuple
 
 import msgspec
 import numpy as np
+from numpy.typing import NDArray
 
 import rockshape
 from rockshape.measurement import AXES, Rock
 from rockshape.method import ROBUST
-from rockshape.uncertainty.observables import Observables
+from rockshape.uncertainty import ErrorModels, Observables
 from synth.camera.trajectories import camera_of
 from synth.dataset.files import plain
 from synth.dataset.shape_truth import scene_gt_shape
@@ -24,6 +25,7 @@ from synth.scene.laying import PlacedRock
 from synth.scene.scene import SceneModel, build_scene
 from synth.sensor import Capture
 from synth.spec import SceneSpec, convert_spec
+from validation.records.match import match_labels
 
 FAMILIES = (
     "rounded-polyhedron",
@@ -41,7 +43,7 @@ FAMILIES = (
 FINE = "mer-pancam"
 NOISE = "stereo"
 CAMERAS = ("mer-navcam", "msl-navcam", "mer-hazcam", "imp")
-UNESTIMATED = replace(ROBUST, errors=dict)  # without the error models that are to be fitted
+UNESTIMATED = replace(ROBUST, errors=ErrorModels)  # without the models that are to be fitted
 VIEWS = 2
 # rocks in the fine camera's frame, apart and crowded, by their size over the distance
 ROCKS = ((0.05, 4, 10), (np.inf, 2, 5))
@@ -59,6 +61,19 @@ OF_ROCK = {
 OF_OUTLINE = {"axis_ratio": "outline_axis_ratio", "roundness": "outline_roundness"}
 MOST_BURIED = 0.02  # of a rock whose true outline is the one in sight
 LEAST_SEEN = 0.4  # of a rock, for its value to be compared
+MIN_IOU = 0.5  # of a found rock's pixels with a true one's, for it to be that
+
+
+class Way(NamedTuple):
+    """Where the outlines and the range of a view's rocks come from."""
+
+    noise: str  # of the range; `NO_RANGE` without any
+    finder: str | None  # None: true labels
+
+
+NO_RANGE = "no range"
+GIVEN = (Way("none", None), Way(NOISE, None))
+FOUND = (Way("none", "both"), Way(NOISE, "both"), Way(NO_RANGE, "network"))
 
 
 class Kind(NamedTuple):
@@ -70,7 +85,7 @@ class Kind(NamedTuple):
 
 @dataclass(frozen=True)
 class Pair:
-    """One rock in one coarse view: values, true values and observables."""
+    """One rock in one coarse view, in one way: values, true values and observables."""
 
     scene: int
     family: str
@@ -85,9 +100,14 @@ class Pair:
 
 
 def made_pairs(
-    seed: int, scenes: Iterable[int], families: Sequence[str], *, scans: Sequence[str] = ()
+    seed: int,
+    scenes: Iterable[int],
+    families: Sequence[str],
+    *,
+    scans: Sequence[str] = (),
+    ways: Sequence[Way] = GIVEN,
 ) -> Iterator[Pair]:
-    """Yield the rocks of scenes of a seed, each from two sides, on exact and on noisy range.
+    """Yield the rocks of scenes of a seed, each from two sides, in each way.
 
     Families take turns; of every three scenes of a family one has worn rocks, and one rocks that
     hide one another in part. What a fine camera measures of a rock alone, from the same place and
@@ -100,7 +120,7 @@ def made_pairs(
         kind = Kind(worn=turn % 3 == 1 and not scans, crowded=turn % 3 == 2)
         spec, camera = _spec(rng, seed * 1000 + scene, families[which], scans, kind)
         try:
-            yield from _pairs(scene, spec, camera)
+            yield from _pairs(scene, spec, camera, ways)
         except SpecError:  # no room for the rocks
             continue
 
@@ -146,7 +166,7 @@ def _spec(
     return convert_spec(table, where="uncertainty"), str(rng.choice(CAMERAS))
 
 
-def _pairs(scene: int, fine: SceneSpec, camera: str) -> Iterator[Pair]:
+def _pairs(scene: int, fine: SceneSpec, camera: str, ways: Sequence[Way]) -> Iterator[Pair]:
     coarse = _noisy(_with_camera(fine, camera))
     near = build_scene(fine, 0)
     far = replace(near, camera=camera_of(coarse.camera))
@@ -156,30 +176,45 @@ def _pairs(scene: int, fine: SceneSpec, camera: str) -> Iterator[Pair]:
     for number, (view, capture) in enumerate(taken):
         seen = truth["views"][str(number)]
         told = truth_table(truth["rocks"], seen).set_index("id").to_dict("index")
-        for noise, depth_m in (("none", view.depth_m), (NOISE, capture.depth_m)):
-            noisy = replace(capture, depth_m=depth_m)
-            for rock in _measured(coarse, view, noisy):
-                own = told[rock.number]
-                if own["visible_fraction"] < LEAST_SEEN or rock.observables is None:
-                    continue
-                yield Pair(
-                    scene=scene,
-                    family=str(own["family"]),
-                    camera=camera,
-                    noise=noise,
-                    distance_m=float(own["depth_m"]),
-                    buried=float(own["buried_fraction"]),
-                    hidden=1.0 - float(own["visible_fraction"]),
-                    values=rock.quantities,
-                    truths=_truths(own, alone[rock.number - 1][number]),
-                    observables=rock.observables,
-                )
+        for way, true, rock in _readings(coarse, view, capture, ways):
+            own = told[true]
+            if own["visible_fraction"] < LEAST_SEEN or rock.observables is None:
+                continue
+            yield Pair(
+                scene=scene,
+                family=str(own["family"]),
+                camera=camera,
+                noise=way.noise,
+                distance_m=float(own["depth_m"]),
+                buried=float(own["buried_fraction"]),
+                hidden=1.0 - float(own["visible_fraction"]),
+                values=rock.quantities,
+                truths=_truths(own, alone[true - 1][number]),
+                observables=rock.observables,
+            )
+
+
+def _readings(
+    spec: SceneSpec, view: RenderedView, capture: Capture, ways: Sequence[Way]
+) -> Iterator[tuple[Way, int, Rock]]:
+    """Yield what is measured of a view's rocks in each way, with the rocks' true numbers."""
+    ranges = {"none": view.depth_m, NOISE: capture.depth_m, NO_RANGE: None}
+    true = view.labels.astype(np.int32)
+    for way in ways:
+        labels = true if way.finder is None else None
+        found = _measured(spec, capture, ranges[way.noise], labels=labels, find=way.finder)
+        rocks = {rock.number: rock for rock in found}
+        for match in match_labels(true, found.labels, min_iou=MIN_IOU):
+            yield way, match.truth, rocks[match.measured]
 
 
 def _alone(spec: SceneSpec, scene: SceneModel, rock: PlacedRock) -> list[Rock | None]:
     """What is measured of one rock of a scene in each view without the others; None if nothing."""
     taken = _views(spec, replace(scene, rocks=(rock,)))
-    return [next(iter(_measured(spec, *one)), None) for one in taken]
+    return [
+        next(iter(_measured(spec, capture, capture.depth_m, labels=view.labels)), None)
+        for view, capture in taken
+    ]
 
 
 def _views(spec: SceneSpec, scene: SceneModel) -> Iterator[tuple[RenderedView, Capture]]:
@@ -200,12 +235,20 @@ def _noisy(spec: SceneSpec) -> SceneSpec:
     return msgspec.structs.replace(spec, noise=msgspec.structs.replace(spec.noise, kind=NOISE))
 
 
-def _measured(spec: SceneSpec, view: RenderedView, capture: Capture) -> rockshape.Measurement:
+def _measured(
+    spec: SceneSpec,
+    capture: Capture,
+    range_m: NDArray[np.floating] | None,
+    *,
+    labels: NDArray[np.integer] | None,
+    find: str | None = None,
+) -> rockshape.Measurement:
     return rockshape.measure(
         capture.picture,
-        range_m=capture.depth_m,
-        camera=camera_of(spec.camera),
-        labels=view.labels,
+        range_m=range_m,
+        camera=None if range_m is None else camera_of(spec.camera),
+        labels=labels,
+        find=find,
         method=UNESTIMATED,
     )
 

@@ -10,18 +10,22 @@ import pandas as pd
 
 from rockshape.uncertainty import Observables
 from synth.dataset.workers import worker_pool
-from training.uncertainty.pairs import made_pairs
+from training.uncertainty.pairs import GIVEN, Way, made_pairs
 
 
 @dataclass(frozen=True)
 class PairSet:
-    """Scenes to be made: their seed, number and families, or scans in their place."""
+    """Scenes to be made: their seed, number and families, or scans in their place.
+
+    `ways` are where the outlines and the range of their rocks come from.
+    """
 
     name: str
     seed: int
     scenes: int
     families: Sequence[str]
     scans: Sequence[str] = ()
+    ways: Sequence[Way] = GIVEN
 
 
 def pair_table(wanted: PairSet, *, jobs: int = 1) -> pd.DataFrame:
@@ -41,7 +45,7 @@ def observables_of(table: pd.DataFrame) -> list[Observables]:
 
 def _rows(wanted: PairSet, scenes: Iterable[int]) -> list[dict[str, Any]]:
     rows: list[dict[str, Any]] = []
-    made = made_pairs(wanted.seed, scenes, wanted.families, scans=wanted.scans)
+    made = made_pairs(wanted.seed, scenes, wanted.families, scans=wanted.scans, ways=wanted.ways)
     for pair in made:
         row = dataclasses.asdict(pair)
         for kind, name in (("values", "value"), ("truths", "truth"), ("observables", "seen")):

@@ -1,5 +1,7 @@
 """Uncertainty of values: laws of the error models, and what the table has of them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -7,9 +9,10 @@ import rockshape
 import synth
 from rockshape.measurement import AXES, columns, to_frame
 from rockshape.method import PAPER, ROBUST
-from rockshape.uncertainty import ErrorModel, Observables, estimates, read_error_model
+from rockshape.uncertainty import ErrorModel, Observables, estimates, read_error_models
 from rockshape.uncertainty.observables import NAMES
 
+MODELS = read_error_models()
 MIDDLE = Observables(width_px=64.0, noise=0.0, hidden=0.0)
 
 
@@ -78,9 +81,10 @@ def test_features_are_nought_at_the_middle_and_end_somewhere() -> None:
 
 
 def test_every_robust_value_and_axis_has_a_model() -> None:
-    assert set(read_error_model()) == {one.column for one in ROBUST.measures} | set(AXES)
+    columns_of_values = {one.column for one in ROBUST.measures} | set(AXES)
+    assert set(MODELS.given) == set(MODELS.found) == columns_of_values
     assert PAPER.estimated == ()
-    for one in read_error_model().values():
+    for one in (*MODELS.given.values(), *MODELS.found.values()):
         assert one.low < 0 < one.high
         assert one.sd > 0
         assert all(low <= high for low, high in zip(one.least, one.most, strict=True))
@@ -89,16 +93,16 @@ def test_every_robust_value_and_axis_has_a_model() -> None:
 def test_small_and_noisy_rocks_are_less_sure() -> None:
     for name in ("ellipse_error", "angularity_2d", "sphericity_2d"):
         small = Observables(width_px=20.0, noise=0.0, hidden=0.0)
-        one = read_error_model()[name]
+        one = MODELS.given[name]
         assert one.deviation(0.5, small) > 1.5 * one.deviation(0.5, MIDDLE), name
     for name in ("sphericity_3d", "axis_a_m"):
         noisy = Observables(width_px=64.0, noise=0.1, hidden=0.0)
-        one = read_error_model()[name]
+        one = MODELS.given[name]
         assert one.deviation(0.5, noisy) > 1.2 * one.deviation(0.5, MIDDLE), name
 
 
 def test_intervals_widen_with_what_is_hidden_and_with_noise() -> None:
-    for name, one in read_error_model().items():
+    for name, one in (*MODELS.given.items(), *MODELS.found.items()):
         widths = [
             np.ptp(one.interval(0.3, Observables(64.0, 0.0, h))) for h in (0, 0.03, 0.1, 0.25)
         ]
@@ -106,8 +110,20 @@ def test_intervals_widen_with_what_is_hidden_and_with_noise() -> None:
         noisy = [np.ptp(one.interval(0.3, Observables(64.0, n, 0.0))) for n in (0, 0.01, 0.1)]
         assert (np.diff(noisy) >= 0).all(), name
     for name in ("axis_ratio", "ellipse_error", "roundness"):
-        one = read_error_model()[name]
+        one = MODELS.given[name]
         assert one.deviation(0.5, Observables(64.0, 0.0, 0.1)) > 2 * one.deviation(0.5, MIDDLE)
+
+
+def test_what_a_finder_drew_is_less_sure_than_what_labels_give(measured) -> None:
+    """The outlines of both are the same; only who drew them differs."""
+    found = rockshape.measure(replace(measured.observation, instances=None))
+    given = rockshape.measure(found.observation, labels=found.labels)
+    assert len(found) > 1
+    for one, other in zip(found, given, strict=True):
+        assert one.observables.found
+        assert not other.observables.found
+        for name in ("axis_ratio", "sphericity_2d", "angularity_2d"):
+            assert one.readings[name].sd > 1.5 * other.readings[name].sd
 
 
 def test_without_range_a_rock_that_another_cuts_may_be_hidden() -> None:

@@ -6,10 +6,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from rockshape.uncertainty import Observables
+from rockshape.uncertainty import ErrorModels, Observables
 from rockshape.uncertainty.error_model import decode_models
-from training.uncertainty.fit import as_json, fit_models, left_out_models
-from training.uncertainty.pairs import FAMILIES, made_pairs
+from training.uncertainty.fit import as_json, fit_by_value, fit_models, left_out_models
+from training.uncertainty.pairs import FAMILIES, FOUND, made_pairs
 from training.uncertainty.table import observables_of
 
 
@@ -27,13 +27,14 @@ def drawn(seed: int, rocks: int) -> pd.DataFrame:
             "seen_width_px": width,
             "seen_noise": 0.0,
             "seen_hidden": 0.0,
+            "seen_found": False,
         }
     )
 
 
 @pytest.fixture(scope="module")
 def model():
-    return fit_models(drawn(1, 3000))["roundness"]
+    return fit_by_value(drawn(1, 3000))["roundness"]
 
 
 def test_the_scale_falls_with_the_width_as_it_was_drawn(model) -> None:
@@ -64,11 +65,11 @@ def test_ends_cover_a_family_whose_errors_no_other_tells() -> None:
     odd = np.arange(4000) % 4 == 0
     table["family"] = np.where(odd, "odd", table["family"])
     table.loc[odd, "value_roundness"] += 0.2
-    one = fit_models(table)["roundness"]
+    one = fit_by_value(table)["roundness"]
     middle = Observables(64.0, 0.0, 0.0)
     low, high = one.interval(0.5, middle)
     assert low < 0.5 - 0.2  # where the odd family's truth lies
-    plain = fit_models(drawn(4, 4000))["roundness"].interval(0.5, middle)
+    plain = fit_by_value(drawn(4, 4000))["roundness"].interval(0.5, middle)
     assert high - low > 2 * (plain[1] - plain[0])
 
 
@@ -87,7 +88,7 @@ def near_the_noise(family: str, truth: tuple[float, float], rocks: int) -> pd.Da
 def test_smooth_rocks_are_covered_by_a_fit_that_has_seen_none() -> None:
     """What pixels alone make of a rock without corners is within reach of 0."""
     rough = [near_the_noise(name, (0.05, 0.3), 600) for name in ("cube", "slab", "broken")]
-    one = fit_models(pd.concat(rough))["angularity_2d"]
+    one = fit_by_value(pd.concat(rough))["angularity_2d"]
     smooth = near_the_noise("ball", (0.0, 0.001), 600)
     within = []
     for row in smooth.to_dict("records"):
@@ -101,13 +102,27 @@ def test_models_of_a_family_are_those_of_all_others() -> None:
     table = drawn(6, 900)
     left_out = left_out_models(table)
     assert set(left_out) == {"cube", "ball", "slab"}
-    assert left_out["cube"] == fit_models(table[table["family"] != "cube"])
+    assert left_out["cube"].given == fit_by_value(table[table["family"] != "cube"])
     assert left_out["cube"] != left_out["ball"]
 
 
+def test_found_outlines_have_models_of_their_own() -> None:
+    found = drawn(7, 900).assign(seen_found=True)
+    found["value_roundness"] += 3 * (found["value_roundness"] - found["truth_roundness"])
+    models = fit_models(pd.concat([drawn(1, 900), found], ignore_index=True))
+    assert models.given == fit_by_value(drawn(1, 900))
+    given, drawn_by_a_finder = Observables(64, 0, 0), Observables(64, 0, 0, found=True)
+    widths = [
+        np.ptp(models.of(seen)["roundness"].interval(0.5, seen))
+        for seen in (given, drawn_by_a_finder)
+    ]
+    assert widths[1] == pytest.approx(4 * widths[0], rel=0.3)
+
+
 def test_models_are_read_back_as_they_were_written(model) -> None:
-    content = json.dumps(as_json({"roundness": model})).encode()
-    assert decode_models(content, where="here") == {"roundness": model}
+    models = ErrorModels(given={"roundness": model})
+    content = json.dumps(as_json(models)).encode()
+    assert decode_models(content, where="here") == models
     with pytest.raises(ValueError, match="here: expected the features"):
         decode_models(content.replace(b"width", b"breadth"), where="here")
 
@@ -117,14 +132,14 @@ def test_more_hidden_never_makes_a_value_surer() -> None:
     table = drawn(5, 900).assign(seen_hidden=np.linspace(0.0, 0.3, 900))
     error = table["value_roundness"] - table["truth_roundness"]
     table["value_roundness"] -= error * table["seen_hidden"] / 0.4
-    one = fit_models(table)["roundness"]
+    one = fit_by_value(table)["roundness"]
     scales = [one.scale(0.5, Observables(64.0, 0.0, hidden)) for hidden in (0.0, 0.1, 0.3)]
     assert scales[0] <= scales[1] <= scales[2]
 
 
 def test_too_few_errors_make_no_model() -> None:
-    assert fit_models(drawn(1, 50)) == {}
-    assert as_json({})["models"] == {}
+    assert fit_by_value(drawn(1, 50)) == {}
+    assert as_json(ErrorModels())["given"] == {}
 
 
 def test_observables_are_read_back_as_they_were_written() -> None:
@@ -138,7 +153,7 @@ def test_errors_of_axes_are_of_their_logarithms() -> None:
     twice = table.assign(
         value_axis_a_m=2 * table["value_axis_a_m"], truth_axis_a_m=2 * table["truth_axis_a_m"]
     )
-    one, other = fit_models(table)["axis_a_m"], fit_models(twice)["axis_a_m"]
+    one, other = fit_by_value(table)["axis_a_m"], fit_by_value(twice)["axis_a_m"]
     seen = Observables(64.0, 0.0, 0.0)
     assert one.interval(3.0, seen) == pytest.approx(other.interval(3.0, seen), rel=1e-4)
     assert one.interval(6.0, seen) == pytest.approx([2 * end for end in one.interval(3.0, seen)])
@@ -165,3 +180,12 @@ def test_a_pair_is_one_rock_from_one_place() -> None:
         assert pair.values["axis_ratio"] == pytest.approx(pair.truths["axis_ratio"], abs=0.1)
         assert 0.5 < pair.values["axis_b_m"] / pair.truths["axis_b_m"] < 2
         assert pair.observables.width_px > 5
+
+
+def test_a_found_rock_is_held_to_the_rock_that_it_stands_for() -> None:
+    pairs = list(made_pairs(3, [0], FAMILIES, ways=FOUND))
+    assert {pair.noise for pair in pairs} == {"none", "stereo", "no range"}
+    for pair in pairs:
+        assert pair.observables.found
+        assert pair.values["axis_ratio"] == pytest.approx(pair.truths["axis_ratio"], abs=0.25)
+    assert all(np.isnan(p.values["sphericity_3d"]) == (p.noise == "no range") for p in pairs)

@@ -7,7 +7,8 @@ from pathlib import Path
 import pandas as pd
 
 from training.uncertainty.fit import LEFT_OUT, as_json, fit_models, left_out_models
-from training.uncertainty.pairs import FAMILIES, FOUND
+from training.uncertainty.pairs import FOUND
+from training.uncertainty.scenes import FAMILIES
 from training.uncertainty.table import PairSet, pair_table
 
 FITTED = (

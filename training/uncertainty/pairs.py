@@ -4,7 +4,6 @@ from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
-import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -24,33 +23,11 @@ from synth.render.view import RenderedView
 from synth.scene.laying import PlacedRock
 from synth.scene.scene import SceneModel, build_scene
 from synth.sensor import Capture
-from synth.spec import SceneSpec, convert_spec
+from synth.spec import SceneSpec
+from training.uncertainty.scenes import NOISE, VIEWS, Kind, draw_spec, noisy, with_camera
 from validation.records.match import match_labels
 
-FAMILIES = (
-    "rounded-polyhedron",
-    "realistic",
-    "superellipsoid",
-    "perturbed",
-    "lumpy",
-    "dented",
-    "slab",
-    "rounded-box",
-    "broken",
-    "vesicular",
-    "ellipsoid",
-)
-FINE = "mer-pancam"
-NOISE = "stereo"
-CAMERAS = ("mer-navcam", "msl-navcam", "mer-hazcam", "imp")
 UNESTIMATED = replace(ROBUST, errors=ErrorModels)  # without the models that are to be fitted
-VIEWS = 2
-# rocks in the fine camera's frame, apart and crowded, by their size over the distance
-ROCKS = ((0.05, 4, 10), (np.inf, 2, 5))
-# distance of neighbours over the sum of their radii, and elevation of the camera in degrees
-APART, CROWDED = (1.2, (18.0, 50.0)), (1.0, (6.0, 22.0))
-WORN = (0.0, 1.0)  # abrasion of the rocks of every third scene of a family: fresh to smooth
-OWN_WEAR = "realistic"  # family that has a wear of its own
 # columns of the truth that are the same quantity as a value
 OF_ROCK = {
     "sphericity_3d": "maximum_projection_sphericity",
@@ -74,13 +51,6 @@ class Way(NamedTuple):
 NO_RANGE = "no range"
 GIVEN = (Way("none", None), Way(NOISE, None))
 FOUND = (Way("none", "both"), Way(NOISE, "both"), Way(NO_RANGE, "network"))
-
-
-class Kind(NamedTuple):
-    """What sets a scene apart from others of its family."""
-
-    worn: bool
-    crowded: bool  # rocks hide one another in part
 
 
 @dataclass(frozen=True)
@@ -118,56 +88,15 @@ def made_pairs(
         turn, which = divmod(scene, len(families))
         rng = np.random.default_rng([seed, 90, scene])
         kind = Kind(worn=turn % 3 == 1 and not scans, crowded=turn % 3 == 2)
-        spec, camera = _spec(rng, seed * 1000 + scene, families[which], scans, kind)
+        spec, camera = draw_spec(rng, seed * 1000 + scene, families[which], scans, kind)
         try:
             yield from _pairs(scene, spec, camera, ways)
         except SpecError:  # no room for the rocks
             continue
 
 
-def _spec(
-    rng: np.random.Generator,
-    seed: int,
-    family: str,
-    scans: Sequence[str],
-    kind: Kind,
-) -> tuple[SceneSpec, str]:
-    """Scene as the fine camera sees it, and the coarse camera."""
-    distance_m = float(np.exp(rng.uniform(np.log(1.5), np.log(7.0))))
-    size = float(rng.uniform(0.02, 0.085))  # over the distance
-    spacing, elevation_deg = CROWDED if kind.crowded else APART
-    rocks: dict[str, Any] = {
-        "count": next(counts[kind.crowded] for most, *counts in ROCKS if size < most),
-        "family": family,
-        "series": "random",
-        "spacing": spacing,
-        "diameter_m": [size * distance_m, 1.4 * size * distance_m],
-    }
-    if scans:
-        rocks |= {"family": "scan", "scans": list(scans)}
-    if kind.worn and family == OWN_WEAR:
-        rocks["realism"] = {"abrasion": list(WORN)}
-    elif kind.worn:
-        rocks["abrasion"] = list(WORN)
-    burial = [0.0, 0.4] if rng.uniform() < 0.3 else [0.0, 0.0]
-    table = {
-        "seed": seed,
-        "renderer": "embree",
-        "rocks": rocks,
-        "ground": {"burial": burial},
-        "camera": {
-            "preset": FINE,
-            "distance_m": distance_m,
-            "elevation_deg": float(rng.uniform(*elevation_deg)),
-            "supersample": 1,
-        },
-        "views": {"count": VIEWS, "start_deg": float(rng.uniform(0.0, 360.0))},
-    }
-    return convert_spec(table, where="uncertainty"), str(rng.choice(CAMERAS))
-
-
 def _pairs(scene: int, fine: SceneSpec, camera: str, ways: Sequence[Way]) -> Iterator[Pair]:
-    coarse = _noisy(_with_camera(fine, camera))
+    coarse = noisy(with_camera(fine, camera))
     near = build_scene(fine, 0)
     far = replace(near, camera=camera_of(coarse.camera))
     alone = [_alone(fine, near, rock) for rock in near.rocks]
@@ -223,16 +152,6 @@ def _views(spec: SceneSpec, scene: SceneModel) -> Iterator[tuple[RenderedView, C
     renderer = open_renderer(choose_backend(spec.renderer), stage, scene.camera)
     for number in range(VIEWS):
         yield capture_frame(spec, 0, number, scene=scene, stage=stage, renderer=renderer)
-
-
-def _with_camera(spec: SceneSpec, preset: str) -> SceneSpec:
-    """Specification with another camera in the same place."""
-    return msgspec.structs.replace(spec, camera=msgspec.structs.replace(spec.camera, preset=preset))
-
-
-def _noisy(spec: SceneSpec) -> SceneSpec:
-    """Specification with the noisy range sensor."""
-    return msgspec.structs.replace(spec, noise=msgspec.structs.replace(spec.noise, kind=NOISE))
 
 
 def _measured(

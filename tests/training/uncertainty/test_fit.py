@@ -9,7 +9,8 @@ import pytest
 from rockshape.uncertainty import ErrorModels, Observables
 from rockshape.uncertainty.error_model import decode_models
 from training.uncertainty.fit import as_json, fit_by_value, fit_models, left_out_models
-from training.uncertainty.pairs import FAMILIES, FOUND, made_pairs
+from training.uncertainty.pairs import FOUND, made_pairs
+from training.uncertainty.scenes import FAMILIES
 from training.uncertainty.table import observables_of
 
 

@@ -47,7 +47,7 @@ def photograph_pairs(name: str) -> pd.DataFrame:
         {
             "family": PHOTOGRAPH,
             "set": BY_HAND,
-            "noise": NO_RANGE,
+            "range_kind": NO_RANGE,
             **{f"value_{key}": value for key, value in measured[match.measured].values.items()},
             **{f"truth_{key}": value for key, value in true[match.truth].values.items()},
             **{

@@ -22,7 +22,7 @@ from rockshape.rock.instances import Instance, Instances, Window
 from rockshape.rock.point_fit import PointCounts
 from rockshape.rock.sizes import Sizes, pixel_on_rock_m, sizes_of
 from rockshape.rock.view import RockView
-from rockshape.rock.visibility import uncovered_fraction, visible_fraction
+from rockshape.rock.visibility import visibility
 from rockshape.segmentation.finders import Finder, find_finder
 from rockshape.segmentation.ignored import without_ignored
 from rockshape.uncertainty import Observables, Uncertainty, estimates, observe
@@ -189,9 +189,13 @@ def _rock(
     outline_px.setflags(write=False)
     pixel_rows, pixel_cols = np.nonzero(part.mask)
     descriptors = _describe(view) if asked.descriptors or asked.sizes else UNRESOLVED
-    visible = visible_fraction(whole, fits.ellipse, scene.instances, scene.observation.points_m)
-    ranged = len(view.points_m) > 0
-    surely = visible if ranged else uncovered_fraction(whole, fits.ellipse, scene.instances)
+    visible = visibility(
+        whole,
+        fits.ellipse,
+        scene.instances,
+        scene.observation.points_m,
+        scene.observation.ignored,
+    )
     rock = Rock(
         number=part.id,
         row=rows.start + float(pixel_rows.mean()),
@@ -200,7 +204,7 @@ def _rock(
         width_px=cols.stop - cols.start,
         height_px=rows.stop - rows.start,
         truncated=view.truncated,
-        visible_fraction=visible,
+        visible_fraction=visible.fraction,
         outline_px=outline_px,
         outline_share=view.outline_share,
         points=_counts(
@@ -214,9 +218,7 @@ def _rock(
         readings=readings,
         descriptors=descriptors if asked.descriptors else None,
         sizes=_sizes(view, descriptors, scene.observation) if asked.sizes else None,
-        observables=_observables(
-            view, method, visible=surely, found=part.id in scene.found_by_number
-        ),
+        observables=_observables(view, method, visible.least, scene.found_by_number.get(part.id)),
     )
     return _estimated(_flagged(rock, view, method, scene), method)
 
@@ -233,15 +235,20 @@ def _flagged(rock: Rock, view: RockView, method: Method, scene: _Scene) -> Rock:
 
 
 def _observables(
-    view: RockView, method: Method, *, visible: float, found: bool
+    view: RockView, method: Method, least_visible: float, found: "FoundRock | None"
 ) -> Observables | None:
     """What the errors of a rock's values depend on; None where they are not estimated.
 
-    They are not where the frame cuts the rock, nor where the method has no error model.
+    They are not where the frame cuts the rock, where the method has no error model, nor where the
+    image branch has drawn the outline without range: on photographs it errs more than on made
+    rocks.
     """
     if method.errors is None or view.truncated:
         return None
-    return observe(view, visible_fraction=visible, found=found)
+    by_image_branch = found is not None and found.branch == "image" and not found.is_drawn
+    if by_image_branch and not len(view.points_m):
+        return None
+    return observe(view, visible_fraction=least_visible, found=found is not None)
 
 
 def _estimated(rock: Rock, method: Method) -> Rock:

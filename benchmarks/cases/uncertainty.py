@@ -104,7 +104,7 @@ def _held(pairs: pd.DataFrame, name: str, models: Mapping[str, ErrorModels]) -> 
         held = held.div(held["truth"], axis=0)
     held = held.dropna(subset=["low"])  # of a rock of which much is hidden
     kept = known.filter(regex="^(set|family|seen_.*|distance_m|buried|hidden)$")
-    kept["seen_noise"] = kept["seen_noise"].where(known["noise"] != NO_RANGE)
+    kept["seen_noise"] = kept["seen_noise"].where(known["range_kind"] != NO_RANGE)
     return kept.join(held, how="inner").assign(name=name)
 
 

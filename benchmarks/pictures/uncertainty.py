@@ -33,9 +33,10 @@ def _draw_coverage(axis: Axes, values: pd.DataFrame) -> None:
     names = values["value"].unique().tolist()
     axis.axhspan(*GOAL, color="0.9", lw=0)
     axis.axhline(0.9, color="0.4", lw=0.8)
-    for number, (one, colour) in enumerate(zip(values["rocks"].unique(), COLOURS, strict=False)):
+    sets = values["rocks"].unique()
+    for number, (one, colour) in enumerate(zip(sets, COLOURS, strict=False)):
         own = values[values["rocks"] == one]
-        place = [names.index(name) + 0.18 * (number - 0.5) for name in own["value"]]
+        place = [names.index(name) + 0.18 * (number - (len(sets) - 1) / 2) for name in own["value"]]
         axis.plot(place, own["coverage"], "o", color=colour, ms=5, label=one)
     axis.set_xticks(range(len(names)), [name.strip("`") for name in names], rotation=50, ha="right")
     axis.set(ylim=(0.5, 1.02), ylabel="true values in the 90 % interval")

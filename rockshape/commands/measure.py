@@ -221,6 +221,7 @@ def run(args: argparse.Namespace) -> int:
     args.image = Path(args.images[0])
     names = MeasureOptions.__dataclass_fields__
     options = MeasureOptions(**{name: getattr(args, name) for name in names})
+    options.check_uncertainty()
     if not is_batch(args.images):
         measure_image(options)
         return 0

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from rockshape.errors import InputError
+from rockshape.method import find_method, methods
 from rockshape.point_grid.range_kinds import RangeKind
 from rockshape.point_grid.units import parse_length
 from rockshape.rock.level_ground import LevelGround
@@ -62,6 +63,14 @@ class MeasureOptions:
             raise InputError(f"{alone}: expected --camera-height and --tilt together, found one")
         height_m = parse_length(self.camera_height, what="--camera-height", example="1.5m")
         return LevelGround(height_m, self.tilt)
+
+    def check_uncertainty(self) -> None:
+        """Raises: InputError if it is asked of a method that does not estimate it."""
+        if self.uncertainty and not find_method(self.method).estimated:
+            able = ", ".join(name for name, method in methods().items() if method.estimated)
+            raise InputError(
+                f"--uncertainty: expected a method that estimates it ({able}), found {self.method}"
+            )
 
     def choices(self) -> dict[str, Any]:
         """What was chosen beside the files, by the options' names."""

@@ -35,9 +35,12 @@ def rank(table: "pd.DataFrame", by: str, *, ascending: bool = False) -> "pd.Data
         hint = did_you_mean(by, list(table.columns))
         raise InputError(f"by (--by): expected a column of the table, found {by!r}{hint}")
     if sd_name not in table:
+        known = [name for name in map(str, table) if uncertainty_columns(name)[0] in table]
         raise InputError(
-            f"by (--by): expected the column {sd_name}, as --uncertainty writes it, found none"
+            f"by (--by): expected a value with its uncertainty, {sd_name}, found none"
+            + (f"; the table has {', '.join(known)}" if known else ": measure with --uncertainty")
         )
+    table = _with_numbers(table, [name for name in (by, *uncertainty_columns(by)) if name in table])
     _check_uncertainty(table, by)
     known = table[np.isfinite(table[by]) & np.isfinite(table[sd_name])]
     order = np.argsort(known[by].to_numpy() * (1 if ascending else -1), kind="stable")
@@ -60,6 +63,24 @@ def rank(table: "pd.DataFrame", by: str, *, ascending: bool = False) -> "pd.Data
             "rank_high": high,
         }
     )
+
+
+def _with_numbers(table: "pd.DataFrame", columns: list[str]) -> "pd.DataFrame":
+    """Table with columns as numbers, NaN where a cell is empty.
+
+    Raises: InputError for a cell that is neither empty nor a finite number.
+    """
+    import pandas as pd  # noqa: PLC0415 - it takes as long as all else
+
+    numbers = {name: pd.to_numeric(table[name], errors="coerce") for name in columns}
+    for name, found in numbers.items():
+        wrong = np.isinf(found) | (found.isna() & table[name].notna())
+        if wrong.any():
+            row = int(np.argmax(wrong.to_numpy()))
+            raise InputError(
+                f"{name}: expected finite numbers, found {table[name].iloc[row]} in row {row + 1}"
+            )
+    return table.assign(**numbers)
 
 
 def _check_uncertainty(table: "pd.DataFrame", by: str) -> None:

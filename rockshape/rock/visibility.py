@@ -1,5 +1,7 @@
 """Visible fraction of a rock, and whether the frame cuts it."""
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -33,39 +35,34 @@ def touches_border(window: tuple[slice, slice], frame: tuple[slice, slice]) -> b
     )
 
 
-def visible_fraction(
+class Visibility(NamedTuple):
+    """Shares of a rock's fitted ellipse that are visible, 0..1; NaN where there is no ellipse."""
+
+    fraction: float  # in the frame, and not behind a rock that range tells to be nearer
+    least: float  # nor where another rock, unless it is known to be farther, or ignored pixels are
+
+
+def visibility(
     rock: Instance,
     ellipse: Ellipse | None,
     instances: Instances,
     points_m: NDArray[np.float64] | None,
-) -> float:
-    """Share of a rock's fitted ellipse within the frame and not covered by a nearer rock, 0..1.
+    ignored: NDArray[np.bool_] | None,
+) -> Visibility:
+    """Visibility of a rock among all of the image, `instances`, with the image's range.
 
-    instances are all rocks of the image, points_m (rows, cols, 3) its range. Which of two rocks is
-    the nearer is told by the median distance of their points, so that without range only the frame
-    counts. NaN where there is no ellipse.
+    points_m is (rows, cols, 3). Which of two rocks is the nearer is told by the median distance of
+    their points; where one has none it is unknown. ignored (rows, cols) are pixels left out.
     """
     if ellipse is None:
-        return float("nan")
+        return Visibility(float("nan"), float("nan"))
     inside, window = _raster(ellipse, instances.shape)
-    if points_m is not None:
-        inside &= ~_nearer(rock, instances, points_m[window], inside, window)
-    return _share(inside, ellipse)
-
-
-def uncovered_fraction(rock: Instance, ellipse: Ellipse | None, instances: Instances) -> float:
-    """Share of a rock's fitted ellipse within the frame and not covered by any other rock, 0..1.
-
-    It is the least that is visible where no range tells which of two rocks is the nearer. NaN where
-    there is no ellipse.
-    """
-    if ellipse is None:
-        return float("nan")
-    inside, window = _raster(ellipse, instances.shape)
-    for other in instances.meeting(window):
-        if other.id != rock.id:
-            inside &= ~_within(other, window)
-    return _share(inside, ellipse)
+    nearer, perhaps = _covered(rock, instances, points_m, inside, window)
+    if ignored is not None:
+        perhaps |= ignored[window]
+    area = np.pi * ellipse.major * ellipse.minor
+    seen = ((inside & ~hidden).sum() for hidden in (nearer, nearer | perhaps))
+    return Visibility(*(float(min(1.0, count / area)) for count in seen))
 
 
 def _raster(ellipse: Ellipse, shape: tuple[int, int]) -> tuple[NDArray[np.bool_], Window]:
@@ -83,39 +80,43 @@ def _raster(ellipse: Ellipse, shape: tuple[int, int]) -> tuple[NDArray[np.bool_]
     return u * u + v * v <= 1, np.s_[top:bottom, left:right]
 
 
-def _share(inside: NDArray[np.bool_], ellipse: Ellipse) -> float:
-    """Share of an ellipse's area that pixels fill."""
-    return float(min(1.0, inside.sum() / (np.pi * ellipse.major * ellipse.minor)))
-
-
 def _reach(centre: float, half: float, size: int) -> tuple[int, int]:
     """First and past-the-last pixel within half of the centre and within the frame."""
     first = min(size, max(0, int(np.floor(centre - half))))
     return first, max(first, min(size, int(np.ceil(centre + half)) + 1))
 
 
-def _nearer(
+def _covered(
     rock: Instance,
     instances: Instances,
-    points_m: NDArray[np.float64],
+    points_m: NDArray[np.float64] | None,
     inside: NDArray[np.bool_],
     window: Window,
-) -> NDArray[np.bool_]:
-    """Pixels of the window that belong to a rock nearer to the camera than this one."""
-    distance = np.linalg.norm(points_m, axis=-1)
-    known = np.isfinite(distance)
-    nearer = np.zeros(inside.shape, dtype=bool)
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Pixels of the window of rocks nearer to the camera than this one, and of those in doubt."""
+    nearer, doubtful = np.zeros_like(inside), np.zeros_like(inside)
+    if points_m is None:
+        distance_m = np.full(inside.shape, np.nan)
+    else:
+        distance_m = np.linalg.norm(points_m[window], axis=-1)
     own = _within(rock, window)
-    if not (known & own).any():
-        return nearer
-    own_m = np.median(distance[known & own])
+    own_m = _median(distance_m[own])
     for other in instances.meeting(window):
-        theirs = _within(other, window)
-        if other.id == rock.id or not (theirs & inside & known).any():
+        theirs = _within(other, window) & ~own
+        if other.id == rock.id or not (theirs & inside).any():
             continue
-        if np.median(distance[known & theirs]) < own_m:
-            nearer |= theirs & ~own
-    return nearer
+        other_m = _median(distance_m[theirs])
+        if other_m < own_m:
+            nearer |= theirs
+        elif np.isnan(other_m) or np.isnan(own_m):
+            doubtful |= theirs
+    return nearer, doubtful
+
+
+def _median(distances_m: NDArray[np.float64]) -> float:
+    """Median of the distances that are known; NaN where none is."""
+    known = distances_m[np.isfinite(distances_m)]
+    return float(np.median(known)) if len(known) else float("nan")
 
 
 def _within(rock: Instance, window: Window) -> NDArray[np.bool_]:

@@ -19,7 +19,7 @@ class Observables:
 
     width_px: float  # least Feret diameter
     noise: float  # standard deviation of the range over the rock's width; 0 exact or without range
-    hidden: float  # share of its ellipse out of the frame or behind a nearer rock; see `observe`
+    hidden: float  # share of its ellipse that may be hidden
     found: bool = False  # a finder drew its outline, which may be wrong
 
     def features(self, level: float) -> Floats:
@@ -31,9 +31,10 @@ class Observables:
 
 
 def observe(view: RockView, *, visible_fraction: float, found: bool) -> Observables:
-    """Observables of a rock; visible_fraction is of its ellipse, found whether a finder drew it.
+    """Observables of a rock.
 
-    Without range, which of two rocks is the nearer is unknown: each counts as the farther.
+    visible_fraction is the least share of its ellipse that is visible, found whether a finder has
+    drawn its outline.
     """
     width_px = view.feret_px[0] if view.resolved else 1.0
     hidden = 1.0 if np.isnan(visible_fraction) else float(np.clip(1 - visible_fraction, 0, 1))

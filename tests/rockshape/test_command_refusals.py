@@ -151,6 +151,7 @@ def test_a_bad_camera(
     ("extra", "says"),
     [
         (["--method", "guess"], "method: expected one of paper, robust"),
+        (["--method", "paper", "--uncertainty"], "estimates it (robust), found paper"),
         (["--out", "table.xlsx"], "table.xlsx"),
         (["--out", "nowhere/table.csv"], "nowhere"),
         (["--overlay", "picture.xyz"], "picture.xyz"),

@@ -44,7 +44,7 @@ MIN_IOU = 0.5  # of a found rock's pixels with a true one's, for it to be that
 class Way(NamedTuple):
     """Where the outlines and the range of a view's rocks come from."""
 
-    noise: str  # of the range; `NO_RANGE` without any
+    range_kind: str  # none or stereo, the noise of the range; `NO_RANGE` without any
     finder: str | None  # None: true labels
 
 
@@ -60,7 +60,7 @@ class Pair:
     scene: int
     family: str
     camera: str
-    noise: str
+    range_kind: str
     distance_m: float
     buried: float
     hidden: float  # true share behind nearer rocks
@@ -113,7 +113,7 @@ def _pairs(scene: int, fine: SceneSpec, camera: str, ways: Sequence[Way]) -> Ite
                 scene=scene,
                 family=str(own["family"]),
                 camera=camera,
-                noise=way.noise,
+                range_kind=way.range_kind,
                 distance_m=float(own["depth_m"]),
                 buried=float(own["buried_fraction"]),
                 hidden=1.0 - float(own["visible_fraction"]),
@@ -131,7 +131,7 @@ def _readings(
     true = view.labels.astype(np.int32)
     for way in ways:
         labels = true if way.finder is None else None
-        found = _measured(spec, capture, ranges[way.noise], labels=labels, find=way.finder)
+        found = _measured(spec, capture, ranges[way.range_kind], labels=labels, find=way.finder)
         rocks = {rock.number: rock for rock in found}
         for match in match_labels(true, found.labels, min_iou=MIN_IOU):
             yield way, match.truth, rocks[match.measured]

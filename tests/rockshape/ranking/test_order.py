@@ -59,13 +59,19 @@ def test_rocks_without_a_value_are_left_out() -> None:
         ("roundnes", r"by \(--by\): .* found 'roundnes'; did you mean 'roundness'"),
         (
             "rock",
-            r"by \(--by\): expected the column rock_sd, as --uncertainty writes it, found none",
+            r"by \(--by\): expected a value with its uncertainty, rock_sd, found none; "
+            "the table has roundness$",
         ),
     ],
 )
 def test_a_column_without_uncertainty_is_refused(by: str, told: str) -> None:
     with pytest.raises(InputError, match=told):
         rockshape.rank(table([0.5], [0.1]), by)
+
+
+def test_a_table_without_any_uncertainty_says_how_to_get_it() -> None:
+    with pytest.raises(InputError, match=r"roundness_sd, found none: measure with --uncertainty$"):
+        rockshape.rank(table([0.5], [0.1]).drop(columns="roundness_sd"), "roundness")
 
 
 def test_the_command_takes_several_tables_and_names_them(tmp_path, capsys) -> None:
@@ -99,12 +105,16 @@ def test_a_measured_image_is_ranked(tmp_path, capsys) -> None:
     ("name", "value", "told"),
     [
         ("roundness_sd", -1.0, "roundness_sd: expected at least 0, found -1 in row 2"),
+        ("roundness_sd", np.inf, "roundness_sd: expected finite numbers, found inf in row 2"),
+        ("roundness_sd", "wide", "roundness_sd: expected finite numbers, found wide in row 2"),
+        ("roundness", "n/a", "roundness: expected finite numbers, found n/a in row 2"),
         ("roundness_low", 0.6, "roundness_low: expected at most roundness, found 0.6 in row 2"),
         ("roundness_high", 0.2, "roundness_high: expected at least roundness, found 0.2 in row 2"),
     ],
 )
-def test_uncertainties_that_cannot_be_are_refused(name: str, value: float, told: str) -> None:
+def test_uncertainties_that_cannot_be_are_refused(name: str, value: float | str, told: str) -> None:
     rocks = table([0.6, 0.5], [0.1, 0.1]).assign(roundness_low=0.4, roundness_high=0.7)
+    rocks = rocks.astype(object)
     rocks.loc[1, name] = value
     with pytest.raises(InputError, match=told):
         rockshape.rank(rocks, "roundness")

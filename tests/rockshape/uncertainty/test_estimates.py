@@ -11,6 +11,7 @@ from rockshape.measurement import AXES, columns, to_frame
 from rockshape.method import PAPER, ROBUST
 from rockshape.uncertainty import ErrorModel, Observables, estimates, read_error_models
 from rockshape.uncertainty.observables import NAMES
+from tests.paths import GRAINS_IMAGE
 
 MODELS = read_error_models()
 MIDDLE = Observables(width_px=64.0, noise=0.0, hidden=0.0)
@@ -124,6 +125,15 @@ def test_what_a_finder_drew_is_less_sure_than_what_labels_give(measured) -> None
         assert not other.observables.found
         for name in ("axis_ratio", "sphericity_2d", "angularity_2d"):
             assert one.readings[name].sd > 1.5 * other.readings[name].sd
+
+
+def test_what_the_image_branch_draws_without_range_has_none() -> None:
+    picture = rockshape.read(GRAINS_IMAGE)
+    for finder, known in (("both", False), ("network", True)):
+        table = to_frame(rockshape.measure(picture, find=finder), uncertainty=True)
+        valued = table[np.isfinite(table["axis_ratio"]) & ~table["truncated"]]
+        assert len(valued) > 5
+        assert np.isfinite(valued["axis_ratio_low"]).any() == known
 
 
 def test_without_range_a_rock_that_another_cuts_may_be_hidden() -> None:

@@ -174,7 +174,7 @@ def test_the_truth_of_a_hidden_rock_is_of_the_rock_alone() -> None:
 
 def test_a_pair_is_one_rock_from_one_place() -> None:
     pairs = list(made_pairs(3, [0], FAMILIES))
-    assert {pair.noise for pair in pairs} == {"none", "stereo"}
+    assert {pair.range_kind for pair in pairs} == {"none", "stereo"}
     whole = [pair for pair in pairs if pair.observables.hidden < 0.02]
     assert len(whole) > 3
     for pair in whole:
@@ -185,8 +185,8 @@ def test_a_pair_is_one_rock_from_one_place() -> None:
 
 def test_a_found_rock_is_held_to_the_rock_that_it_stands_for() -> None:
     pairs = list(made_pairs(3, [0], FAMILIES, ways=FOUND))
-    assert {pair.noise for pair in pairs} == {"none", "stereo", "no range"}
+    assert {pair.range_kind for pair in pairs} == {"none", "stereo", "no range"}
     for pair in pairs:
         assert pair.observables.found
         assert pair.values["axis_ratio"] == pytest.approx(pair.truths["axis_ratio"], abs=0.25)
-    assert all(np.isnan(p.values["sphericity_3d"]) == (p.noise == "no range") for p in pairs)
+    assert all(np.isnan(p.values["sphericity_3d"]) == (p.range_kind == "no range") for p in pairs)

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import Self
 
 import numpy as np
 import pandas as pd
@@ -24,6 +25,12 @@ class Scored:
     low: float
     high: float
     count: int
+
+    @classmethod
+    def of(cls, score: pd.Series) -> Self:
+        """Score of a row of a suite's table."""
+        value, low, high = (float(score[key]) for key in ("value", "low", "high"))
+        return cls(value, low, high, int(score["count"]))
 
     @property
     def interval(self) -> str:

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-import pandas as pd
 from case import Case, Cell, Column, Table
 from cases.targets import TARGETS
 from limit_scores import Scored
@@ -27,8 +26,7 @@ class Limit:
     def row(self) -> tuple[Cell, ...]:
         """Row of the summary."""
         target = next(one for one in TARGETS if one.score == self.target)
-        goal = f"{'≥' if target.above else '≤'} {target.bound:g}"
-        return (target.words, goal, *self.ours.cells(), self.told, *self.limit.cells()[:2])
+        return (target.words, target.goal, *self.ours.cells(), self.told, *self.limit.cells()[:2])
 
 
 def limits(
@@ -97,12 +95,8 @@ def _fused(preset: str, jobs: int) -> Limit:
     """Sphericity from four views by stereo, beside that from exact range."""
     scores = suite_scores("fused", preset=preset, jobs=jobs).set_index("name")
     name = "{}.robust.refined.sphericity_3d.error"
-    stereo, exact = (_scored(scores.loc[name.format(kind)]) for kind in ("stereo", "exact"))
+    stereo, exact = (Scored.of(scores.loc[name.format(kind)]) for kind in ("stereo", "exact"))
     return Limit(name.format("stereo"), stereo, "exact range", exact)
-
-
-def _scored(score: pd.Series) -> Scored:
-    return Scored(*(float(score[key]) for key in ("value", "low", "high")), int(score["count"]))
 
 
 LIMITS_CASE = Case(

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 from case import Case, Cell, Column, Table
+from limit_scores import Scored
 from suites import suite_scores
 
 
@@ -17,6 +18,11 @@ class Target:
     score: str
     bound: float
     above: bool = False  # whether the score is to be at least the bound, else at most
+
+    @property
+    def goal(self) -> str:
+        """The bound as tables have it."""
+        return f"{'≥' if self.above else '≤'} {self.bound:g}"
 
     def met_by(self, value: float) -> bool:
         """Whether a value keeps the bound."""
@@ -134,13 +140,11 @@ def targets(*, suites: tuple[str, ...] = SUITES, preset: str = "", jobs: int = 2
 
 
 def _row(target: Target, scores: pd.DataFrame) -> tuple[Cell, ...]:
-    score = scores.loc[target.score]
-    head = (target.words, target.suite, f"{'≥' if target.above else '≤'} {target.bound:g}")
-    if pd.isna(score["value"]):
-        return (*head, None, "–", int(score["count"]), "–")
-    value, low, high = (float(score[name]) for name in ("value", "low", "high"))
-    interval = f"{low:.3f} … {high:.3f}" if np.isfinite([low, high]).all() else "–"
-    return (*head, value, interval, int(score["count"]), "yes" if target.met_by(value) else "no")
+    score = Scored.of(scores.loc[target.score])
+    head = (target.words, target.suite, target.goal)
+    if np.isnan(score.value):
+        return (*head, None, "–", score.count, "–")
+    return (*head, *score.cells(), "yes" if target.met_by(score.value) else "no")
 
 
 TARGETS_CASE = Case(

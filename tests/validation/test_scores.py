@@ -109,6 +109,20 @@ def test_intervals_are_the_same_every_time(suite, noise) -> None:
     assert repr(first) == repr(second)
 
 
+def test_rocks_without_a_value_lower_the_share_answered(suite, claims, noise) -> None:
+    records = oracle(noise, claims)
+    column = "angularity_2d_deg"
+    shown = records.index[(records["experiment"] == "yard") & (records["method"] == "paper")]
+    eligible = [
+        i for i in shown if records.at[i, "eligible"] and records.at[i, "status"] == "matched"
+    ]
+    records.loc[eligible[::4], column] = np.nan
+    values = score_values(suite, records)
+    expected = 1 - len(eligible[::4]) / len(eligible)
+    assert values[f"yard.{column}.answered"] == pytest.approx(expected, rel=1e-12)
+    assert values["yard.ellipse_error_px2.answered"] == 1
+
+
 def test_missed_rocks_lower_recall_and_leave_the_order(suite, claims, noise) -> None:
     fed = oracle(noise, claims)
     lost = (fed["experiment"] == "yard") & (fed["view"] == 0) & (fed["instance"] == 2)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 
 import pandas as pd
 
@@ -12,7 +13,7 @@ from validation.scores.agreement import ORDERS, STATISTICS, Statistic
 from validation.scores.define import define
 from validation.scores.expectations import TRUTH, Claim, JudgedColumn, columns_of, rock_claim
 from validation.scores.score import VIEW_PREFIX, Better, Definition, Estimate, Key
-from validation.scores.titles import REFERENCE
+from validation.scores.titles import REFERENCE, title_of_claim
 
 # The traits that differ between rocks where an experiment varies one: roundness is the reverse of
 # angularity, whose truth is 1 − roundness.
@@ -86,6 +87,19 @@ def _of_method(experiment: MultiviewExperiment, series: str, method: str) -> lis
     ]
 
 
+def _answered(claim: Claim) -> Definition:
+    """Share of the found rocks that have a value, without which the other scores say little."""
+    key = Key(claim.experiment, claim.method, claim.series, claim.measure, "answered")
+    return Definition(
+        key=key,
+        title=f"{title_of_claim(claim)}: found rocks that have a value",
+        unit="share",
+        counted="found rocks",
+        better="higher",
+        compute=_own(key, partial(levels.answered, column=claim.measure)),
+    )
+
+
 def _of_view(statistic: Statistic) -> Statistic:
     """Statistic of what each view truly shows under a name of its own."""
     return replace(
@@ -156,9 +170,10 @@ def definitions(
         for claim in claims(experiment, measures)
         for statistic in (*STATISTICS, *levels.of(claim))
     ]
+    valued = [_answered(claim) for claim in claims(experiment, measures)]
     shown = [
         define(claim, _of_view(statistic))
         for claim in view_claims(experiment, measures)
         for statistic in (*ORDERS, *(levels.DIFFERENCES if claim.same_quantity else ()))
     ]
-    return (*found, *ranked, *shown)
+    return (*found, *ranked, *valued, *shown)

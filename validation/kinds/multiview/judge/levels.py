@@ -60,6 +60,13 @@ def axis_a(records: pd.DataFrame) -> Estimate:
     return _pooled(relative, *rock_numbers(shown, records), lower_median)
 
 
+def answered(records: pd.DataFrame, column: str) -> Estimate:
+    """Share of the found rocks in plain view that have a value."""
+    shown = _in_plain_view(records)
+    there = np.isfinite(shown[column].to_numpy(np.float64)).astype(np.float64)
+    return _pooled(there, *rock_numbers(shown, records), mean)
+
+
 def _flat(blocks: Sequence[Block], *, less_truth: bool) -> tuple[Floats, NDArray[np.intp], int]:
     """All values of all blocks, or their differences from the truth, with their rocks."""
     values, rocks, count = [np.empty(0)], [np.empty(0, np.intp)], 0

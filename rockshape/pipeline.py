@@ -329,4 +329,5 @@ def _view_rock(scene: _Scene, part: Instance) -> RockView:
         frame=scene.frame,
         subpixel_px=part.outline_px,
         hidden=not_ground(part, scene.instances, scene.frame, scene.observation.ignored),
+        image=scene.observation.image[part.window],
     )

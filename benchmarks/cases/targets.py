@@ -79,11 +79,23 @@ TARGETS = (
     *(
         _least(
             "relief",
-            f"angularity_3d of edges at {words} m: order, τ",
+            f"angularity_3d of edges at {words} m, exact range: order, τ",
             f"distances.robust.{step}.angularity_3d.tau",
             0.6,
         )
         for words, step in (("3", "3"), ("4.5", "4p5"), ("7", "7"))
+    ),
+    _least(
+        "relief",
+        "angularity_3d by a rover's stereo at 4.5 m: share answered",
+        "rover.robust.0p11.angularity_3d.answered",
+        0.6,
+    ),
+    _least(
+        "relief",
+        "angularity_3d by a rover's stereo at 4.5 m: order, τ",
+        "rover.robust.0p11.angularity_3d.tau",
+        0.6,
     ),
     Target("yard", "angularity_2d over views: CV", "yard.robust.angularity_2d.cv", 0.08),
     _least(
@@ -143,7 +155,7 @@ def _row(target: Target, scores: pd.DataFrame) -> tuple[Cell, ...]:
     score = Scored.of(scores.loc[target.score])
     head = (target.words, target.suite, target.goal)
     if np.isnan(score.value):
-        return (*head, None, "–", score.count, "–")
+        return (*head, None, "–", score.count, "no")
     return (*head, *score.cells(), "yes" if target.met_by(score.value) else "no")
 
 

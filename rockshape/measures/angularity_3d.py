@@ -9,7 +9,12 @@ that the body's own curvature and size are out. The surface is sampled in even c
 and smoothed by 0.03, or by 0.45 of the points' distance where that is more. Bends count up to three
 standard deviations from their mean, and less towards the limb. Edges bend outwards alone; relief
 and range noise bend as far in as out and have no third moment, and third moments of what is
-independent add up.
+independent add up. Where range noise scatters the moment, the value is held to what the picture
+tells: 1.7 ln(K/2) and at least 0, give or take 0.85, K = <|grad I|^4>/<|grad I|^2>^2 the kurtosis
+of the brightness gradient over the rock, smoothed by 0.045 of its radius. It is 2 where brightness
+undulates at random, and more where it changes at edges alone. The most likely value of the two is
+taken: without noise that of range, in great noise that of shading. The flag `edges by shading`
+marks values that range alone would not have.
 
 Range and unit: `paper` 1/m, so half the size has twice the value; with u and w in 0..1 as the paper
 has them it is in metres, times the patch's size squared. `robust` no unit: 0 for an ellipsoid,
@@ -20,11 +25,14 @@ change of slope, however sharp or round it is; nor is it 0 on a sphere, where ou
 sphere of radius R has 1/sqrt(R² - r²), which grows without bound at the limb. It does not tell
 edges from relief. The cube that `robust` takes does tell edges of different radius, down to about
 0.03 of the rock's radius, below which they look alike. Relief and noise scatter it but do not raise
-it. Creases that bend inwards count against edges; where they outweigh them the value is 0.
+it. Creases that bend inwards count against edges; where they outweigh them the value is 0. Shading
+does not know outward from inward, and takes the borders of shadows, of dust and of minerals for
+edges; coarse texture hides edges from it.
 
 Smallest size: `paper` 100 points; its value falls as pixels grow. `robust` 200 facing points, about
-22 px across. With noise it is `not resolvable` once the moment's standard deviation by noise is
-above that of a value of 2.2: for a Navcam of 0.42 m baseline and rocks of 0.35 m from about 3 m on.
+22 px across. Where the picture has no contrast, it is `not resolvable` once the moment's standard
+deviation by noise is above that of a value of 2.2: for a Navcam of 0.42 m baseline and rocks of
+0.35 m from about 3 m on.
 
 Degenerate: NaN where the surface is undetermined or, `robust`, the ellipsoid.
 
@@ -40,14 +48,20 @@ from numpy.typing import NDArray
 from rockshape.measures.measure import Measure
 from rockshape.measures.reading import Reason
 from rockshape.rock.view import RockView
-from rockshape.surface import MIN_POINTS, Relief, Surface, fit_surface, view_patch
+from rockshape.surface import (
+    MIN_POINTS,
+    Relief,
+    Surface,
+    fit_surface,
+    view_patch,
+    weigh_edges,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
 MIN_FACING = 200  # below this the value moves by more than 2 % with the grid
-MAX_NOISE = 2.2  # cube root of the moment by noise alone: most of the range from worn to sharp
 
 
 def angularity_3d_per_m(
@@ -76,30 +90,30 @@ def angularity_3d_per_m(
     return float(np.mean(mean if signed else np.abs(mean)))
 
 
-def angularity_3d(relief: Relief) -> float:
-    """Cube root of the third moment of the outward bend; no unit.
+def angularity_3d(relief: Relief, kurtosis: float = float("nan")) -> float:
+    """Sharpness of a rock's edges; no unit.
 
-    0 where as much bends inwards. NaN below 200 facing points, and where the standard deviation of
-    the moment by range noise is above `MAX_NOISE` cubed.
+    The cube root of the third moment of the outward bend, 0 where as much bends inwards; with noise
+    held to what the gradient `kurtosis` of the rock's shading tells. NaN below 200 facing points,
+    and without shading where the standard deviation of the moment by range noise is that of a value
+    above 2.2.
     """
-    if relief.facing < MIN_FACING or relief.noise_bend_cubed > MAX_NOISE**3:
+    if relief.facing < MIN_FACING:
         return float("nan")
-    return float(np.cbrt(max(relief.edge_bend_cubed, 0.0)))
+    return weigh_edges(relief, kurtosis).angularity
 
 
 def _evaluate(rock: RockView) -> float:
     return float("nan") if rock.surface is None else angularity_3d_per_m(rock.surface)
 
 
-def _evaluate_relief(rock: RockView) -> float | Reason:
-    relief = rock.relief
-    if relief is None:
+def _evaluate_edges(rock: RockView) -> float | Reason:
+    if rock.relief is None or rock.edges is None:
         return float("nan")
-    if relief.facing < MIN_FACING:
+    if rock.relief.facing < MIN_FACING:
         return Reason.TOO_SMALL
-    if relief.noise_bend_cubed > MAX_NOISE**3:
-        return Reason.NOT_RESOLVABLE
-    return angularity_3d(relief)
+    found = rock.edges.angularity
+    return Reason.NOT_RESOLVABLE if np.isnan(found) else found
 
 
 def _draw() -> "Figure":
@@ -158,6 +172,6 @@ ROBUST = replace(
     column="angularity_3d",
     unit="",
     min_points=MIN_FACING,
-    evaluate=_evaluate_relief,
+    evaluate=_evaluate_edges,
     constrained=True,
 )

@@ -104,7 +104,10 @@ def angularity_3d(
     camera: CameraLike | None = None,
     ground: Ground | Plane | None = None,
 ) -> Reading:
-    """3-D angularity of points; `paper` in 1/m."""
+    """3-D angularity of points; `paper` in 1/m.
+
+    `robust` of range alone: without a picture it has no value where noise hides edges.
+    """
     measure = _choose(method, robust=_angularity_3d.ROBUST, paper=_angularity_3d.PAPER)
     return _solid(points_m, measure, camera=camera, ground=ground)
 

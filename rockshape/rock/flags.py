@@ -32,7 +32,8 @@ def view_flags(view: RockView, known: KnownOfRock) -> tuple[str, ...]:
     less than 30 px of width. `soft outline`: its outline is unsure by more than a quarter of the
     scale at which its form is read, or a picture alone has drawn it. `extrapolated axis`: its
     visible surface spans less than 0.8 of its longest axis, the rest is inferred. `hidden`: less
-    than 0.9 of its fitted ellipse is seen.
+    than 0.9 of its fitted ellipse is seen. `edges by shading`: range alone is too
+    noisy for its angularity in three dimensions, which the picture tells.
     """
     return tuple(_flags(view, known))
 
@@ -49,6 +50,12 @@ def _flags(view: RockView, known: KnownOfRock) -> Iterator[str]:
         yield "extrapolated axis"
     if known.visible_fraction < VISIBLE_SHARE:
         yield "hidden"
+    if np.isfinite(known.values.get("angularity_3d", np.nan)) and _by_shading(view):
+        yield "edges by shading"
+
+
+def _by_shading(view: RockView) -> bool:
+    return view.edges is not None and view.edges.by_shading
 
 
 def _soft(view: RockView, known: KnownOfRock) -> bool:

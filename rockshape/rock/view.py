@@ -21,8 +21,17 @@ from rockshape.outline.resample import pixel_smooth, pixel_steps
 from rockshape.outline.trace import trace_outline
 from rockshape.rock.contacts import contact_points
 from rockshape.rock.point_fit import PointFit, fit_points
+from rockshape.rock.shading import gradient_kurtosis
 from rockshape.rock.visibility import touches_border
-from rockshape.surface import Relief, Surface, fit_surface, measure_relief, view_patch
+from rockshape.surface import (
+    Edges,
+    Relief,
+    Surface,
+    fit_surface,
+    measure_relief,
+    view_patch,
+    weigh_edges,
+)
 
 if TYPE_CHECKING:
     from rockshape.ground import Ground, NoiseModel
@@ -46,6 +55,7 @@ class RockView:
     frame: tuple[slice, slice] | None = None  # rows and columns in which rocks can be seen
     subpixel_px: NDArray[np.float64] | None = None  # (n, 2), its edge, closed, without a staircase
     hidden: NDArray[np.bool_] | None = None  # of `not_ground`; None where nothing is beside it
+    image: NDArray[np.floating] | None = None  # (rows, cols) within its box, grey
 
     @property
     def noise(self) -> "NoiseModel | None":
@@ -225,6 +235,15 @@ class RockView:
             draws_m=self._noise_draws_m(),
             rank=self.point_fit.rank[self.point_fit.sound],
         )
+
+    @cached_property
+    def edges(self) -> Edges | None:
+        """How sharp its edges are, by range and shading; None where range tells no relief."""
+        return None if self.relief is None else weigh_edges(self.relief, self._gradient_kurtosis())
+
+    def _gradient_kurtosis(self) -> float:
+        """Kurtosis of its shading's gradient; NaN without an image."""
+        return float("nan") if self.image is None else gradient_kurtosis(self.image, self.mask)
 
     def _noise_draws_m(self) -> NDArray[np.float64] | None:
         """Errors of depth (k, draws) like those of the sound points; None for exact range."""

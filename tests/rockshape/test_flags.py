@@ -6,7 +6,11 @@ import numpy as np
 import pytest
 
 import rockshape
+import synth
+from rockshape.ground.noise_model import NoiseModel
 from rockshape.measurement import to_frame
+from rockshape.measures.angularity_3d import ROBUST as ANGULARITY
+from rockshape.measures.reading import Reason
 from rockshape.method import find_method
 from rockshape.observation import Observation
 from rockshape.rock.flags import KnownOfRock
@@ -15,6 +19,7 @@ from rockshape.rock.view import RockView
 from rockshape.segmentation.finders import Finder
 from rockshape.segmentation.result import Branch, FoundRock, Segmentation
 from tests import solids
+from tests.rocks import lumpy_rock
 
 
 def flags_of(mask: np.ndarray, **given) -> tuple[str, ...]:
@@ -118,3 +123,46 @@ def test_flags_of_the_finder_come_first_and_once() -> None:
         "truncated",
         "hidden",
     )
+
+
+@pytest.mark.parametrize(("sigma_px", "expected"), [(0.0, False), (0.6, True)])
+def test_edges_that_range_is_too_noisy_for_are_told_by_shading(
+    sigma_px: float, expected: bool, rng: np.random.Generator
+) -> None:
+    view = lumpy_rock()
+    grid = view.grid_m
+    assert grid is not None
+    assert view.ground is not None
+    noise = NoiseModel(max(sigma_px, 1e-6) * 0.01, 7, 0.0, 1e-3)
+    depth = grid[..., 2]
+    noisy = grid * (1 + noise.draw_m(depth, rng=rng) / depth)[..., None]
+    rock = replace(
+        view,
+        grid_m=noisy,
+        ground=replace(view.ground, noise=noise),
+        image=rng.uniform(size=view.mask.shape),
+    )
+    tell = find_method("robust").flags
+    assert tell is not None
+    value = ANGULARITY.read(rock).value
+    flags = tell(rock, KnownOfRock(1.0, float("nan"), False, {"angularity_3d": value}))
+    assert ("edges by shading" in flags) == expected
+    if expected:
+        assert value < 0.5  # of white noise, which has no edges
+        assert np.isnan(ANGULARITY.read(replace(rock, image=None)).value)
+
+
+def test_the_picture_of_a_measurement_tells_edges() -> None:
+    scene = synth.make_scene(rocks=4, camera="msl-navcam", seed=7003)
+    view = scene.render(0, noise="stereo")
+    labels = np.asarray(view.labels).astype(np.int32)
+    known = {"range_m": view.depth_m, "camera": view.camera, "labels": labels}
+    told = rockshape.measure(view.image, **known)
+    blank = rockshape.measure(np.full(labels.shape, 77, dtype=np.uint8), **known)
+    marked = [rock for rock in told if "edges by shading" in rock.flags]
+    assert marked
+    unlit = {rock.number: rock.angularity_3d for rock in blank}
+    for rock in marked:
+        assert rock.angularity_3d >= 0
+        assert unlit[rock.number].reason is Reason.NOT_RESOLVABLE
+    assert not any("edges by shading" in rock.flags for rock in blank)

@@ -30,6 +30,11 @@ ROCKS = ((0.05, 4, 10), (np.inf, 2, 5))
 # distance of neighbours over the sum of their radii, and elevation of the camera in degrees
 APART, CROWDED = (1.2, (18.0, 50.0)), (1.0, (6.0, 22.0))
 WORN = (0.0, 1.0)  # abrasion of the rocks of every third scene of a family: fresh to smooth
+# ends of what is drawn for a scene: angles in degrees, the rest shares
+LIGHT = {
+    "sun": {"azimuth_deg": (0, 360), "elevation_deg": (15, 75), "ambient": (0.15, 0.5)},
+    "surface": {"contrast": (0.03, 0.25), "dust": (0, 0.5)},
+}
 OWN_WEAR = "realistic"  # family that has a wear of its own
 
 
@@ -77,8 +82,17 @@ def draw_spec(
             "supersample": 1,
         },
         "views": {"count": VIEWS, "start_deg": float(rng.uniform(0.0, 360.0))},
+        **_drawn_light(rng.spawn(1)[0]),
     }
     return convert_spec(table, where="uncertainty"), str(rng.choice(CAMERAS))
+
+
+def _drawn_light(rng: np.random.Generator) -> dict[str, Any]:
+    """Sun, sky and surfaces, from a low sun to a high one and from bare to dusty and patchy."""
+    return {
+        part: {name: float(rng.uniform(*ends)) for name, ends in keys.items()}
+        for part, keys in LIGHT.items()
+    }
 
 
 def with_camera(spec: SceneSpec, preset: str) -> SceneSpec:

@@ -10,7 +10,7 @@ from rockshape.uncertainty import ErrorModels, Observables
 from rockshape.uncertainty.error_model import decode_models
 from training.uncertainty.fit import as_json, fit_by_value, fit_models, left_out_models
 from training.uncertainty.pairs import FOUND, made_pairs
-from training.uncertainty.scenes import FAMILIES
+from training.uncertainty.scenes import FAMILIES, LIGHT, Kind, draw_spec
 from training.uncertainty.table import observables_of
 
 
@@ -183,8 +183,20 @@ def test_a_pair_is_one_rock_from_one_place() -> None:
         assert pair.observables.width_px > 5
 
 
+def test_every_scene_has_a_light_of_its_own() -> None:
+    specs = [
+        draw_spec(np.random.default_rng(seed), 5, "lumpy", (), Kind(worn=False, crowded=False))[0]
+        for seed in (1, 1, 2)
+    ]
+    assert specs[0] == specs[1]
+    for part, keys in LIGHT.items():
+        for name, (low, high) in keys.items():
+            drawn = [getattr(getattr(spec, part), name) for spec in specs]
+            assert low <= min(drawn) < max(drawn) <= high
+
+
 def test_a_found_rock_is_held_to_the_rock_that_it_stands_for() -> None:
-    pairs = list(made_pairs(3, [0], FAMILIES, ways=FOUND))
+    pairs = list(made_pairs(3, [0, 3], FAMILIES, ways=FOUND))
     assert {pair.range_kind for pair in pairs} == {"none", "stereo", "no range"}
     for pair in pairs:
         assert pair.observables.found

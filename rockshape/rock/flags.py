@@ -32,8 +32,8 @@ def view_flags(view: RockView, known: KnownOfRock) -> tuple[str, ...]:
     less than 30 px of width. `soft outline`: its outline is unsure by more than a quarter of the
     scale at which its form is read, or a picture alone has drawn it. `extrapolated axis`: its
     visible surface spans less than 0.8 of its longest axis, the rest is inferred. `hidden`: less
-    than 0.9 of its fitted ellipse is seen. `edges by shading`: range alone is too
-    noisy for its angularity in three dimensions, which the picture tells.
+    than 0.9 of its fitted ellipse is seen. `edges by shading`: range alone is too noisy
+    for its angularity in three dimensions, which the picture tells.
     """
     return tuple(_flags(view, known))
 

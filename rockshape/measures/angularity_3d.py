@@ -27,7 +27,7 @@ edges from relief. The cube that `robust` takes does tell edges of different rad
 0.03 of the rock's radius, below which they look alike. Relief and noise scatter it but do not raise
 it. Creases that bend inwards count against edges; where they outweigh them the value is 0. Shading
 does not know outward from inward, and takes the borders of shadows, of dust and of minerals for
-edges; coarse texture hides edges from it.
+edges; coarse texture and relief hide edges from it, so that a rougher rock looks rounder.
 
 Smallest size: `paper` 100 points; its value falls as pixels grow. `robust` 200 facing points, about
 22 px across. Where the picture has no contrast, it is `not resolvable` once the moment's standard

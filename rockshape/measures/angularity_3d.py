@@ -100,7 +100,7 @@ def angularity_3d(relief: Relief, kurtosis: float = float("nan")) -> float:
     """
     if relief.facing < MIN_FACING:
         return float("nan")
-    return weigh_edges(relief, kurtosis).angularity
+    return weigh_edges(relief, kurtosis)
 
 
 def _evaluate(rock: RockView) -> float:
@@ -108,11 +108,11 @@ def _evaluate(rock: RockView) -> float:
 
 
 def _evaluate_edges(rock: RockView) -> float | Reason:
-    if rock.relief is None or rock.edges is None:
+    if rock.relief is None:
         return float("nan")
     if rock.relief.facing < MIN_FACING:
         return Reason.TOO_SMALL
-    found = rock.edges.angularity
+    found = angularity_3d(rock.relief, rock.gradient_kurtosis)
     return Reason.NOT_RESOLVABLE if np.isnan(found) else found
 
 

@@ -55,7 +55,8 @@ def _flags(view: RockView, known: KnownOfRock) -> Iterator[str]:
 
 
 def _by_shading(view: RockView) -> bool:
-    return view.edges is not None and view.edges.by_shading
+    """Whether what tells edges is not range."""
+    return view.relief is not None and not view.relief.resolves_edges
 
 
 def _soft(view: RockView, known: KnownOfRock) -> bool:

@@ -23,15 +23,7 @@ from rockshape.rock.contacts import contact_points
 from rockshape.rock.point_fit import PointFit, fit_points
 from rockshape.rock.shading import gradient_kurtosis
 from rockshape.rock.visibility import touches_border
-from rockshape.surface import (
-    Edges,
-    Relief,
-    Surface,
-    fit_surface,
-    measure_relief,
-    view_patch,
-    weigh_edges,
-)
+from rockshape.surface import Relief, Surface, fit_surface, measure_relief, view_patch
 
 if TYPE_CHECKING:
     from rockshape.ground import Ground, NoiseModel
@@ -237,12 +229,8 @@ class RockView:
         )
 
     @cached_property
-    def edges(self) -> Edges | None:
-        """How sharp its edges are, by range and shading; None where range tells no relief."""
-        return None if self.relief is None else weigh_edges(self.relief, self._gradient_kurtosis())
-
-    def _gradient_kurtosis(self) -> float:
-        """Kurtosis of its shading's gradient; NaN without an image."""
+    def gradient_kurtosis(self) -> float:
+        """Kurtosis of the gradient of its brightness; NaN without an image."""
         return float("nan") if self.image is None else gradient_kurtosis(self.image, self.mask)
 
     def _noise_draws_m(self) -> NDArray[np.float64] | None:

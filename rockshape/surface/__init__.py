@@ -1,7 +1,7 @@
 """B-spline surfaces of the points seen on a rock, and the edges that they and its shading tell."""
 
 from rockshape.surface.basis import Knots
-from rockshape.surface.edges import Edges, weigh_edges
+from rockshape.surface.edges import weigh_edges
 from rockshape.surface.ellipsoid_curvature import body_bends_per_m
 from rockshape.surface.fit import MIN_POINTS, NET, Surface, fit_surface
 from rockshape.surface.height_map import HeightMap
@@ -13,7 +13,6 @@ __all__ = [
     "MIN_POINTS",
     "NET",
     "RELIEF_SMOOTHING",
-    "Edges",
     "HeightMap",
     "Knots",
     "Net",

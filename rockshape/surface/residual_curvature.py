@@ -25,6 +25,7 @@ MIN_POINTS = 144
 EDGE = 0.2  # cosine from the view beyond which points are left out
 FACING = 0.35  # cosine within which the relief is judged: nearer the limb range is thin
 FADE = 0.12  # of cosine, over which bends come to count in full
+MAX_NOISE = 2.2  # angularity by noise alone: most of the range from worn to sharp
 STRONGEST = 3.0  # standard deviations from the mean bend that a bend may count
 OUTLIER = 6.0  # robust standard deviations from the smooth surface
 MAX_POINTS = 16_000  # in a fixed shuffle: some for each cell
@@ -40,6 +41,11 @@ class Relief:
     rough: float  # robust standard deviation of the relief's height, over (abc)^(1/3)
     noise_rough: float  # the same of the draws of range noise
     facing: int  # number of points judged
+
+    @property
+    def resolves_edges(self) -> bool:
+        """Whether range alone tells edges: noise alone has an angularity of at most 2.2."""
+        return self.noise_bend_cubed <= MAX_NOISE**3
 
 
 def measure_relief(

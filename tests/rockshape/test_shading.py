@@ -98,19 +98,19 @@ def test_what_is_not_lit_has_no_edges(unlit: float, rng: np.random.Generator) ->
 def test_exact_range_alone_counts() -> None:
     for angularity in (0.0, 0.4, 2.5):
         found = weigh_edges(relief(angularity, 0.0), kurtosis=9.0)
-        assert found.angularity == pytest.approx(angularity, abs=1e-6)
-        assert not found.by_shading
+        assert found == pytest.approx(angularity, abs=1e-6)
+        assert relief(angularity, 0.0).resolves_edges
 
 
 def test_in_noise_shading_alone_counts() -> None:
     found = weigh_edges(relief(1.0, 1e6), kurtosis=5.0)
-    assert found.angularity == pytest.approx(told(5.0), abs=1e-3)
-    assert found.by_shading
+    assert found == pytest.approx(told(5.0), abs=1e-3)
+    assert not relief(1.0, 1e6).resolves_edges
     # range alone has no value above a noise of 2.2³
-    assert weigh_edges(relief(1.0, 10.7), kurtosis=5.0).by_shading
-    assert not weigh_edges(relief(1.0, 10.6), kurtosis=5.0).by_shading
+    assert not relief(1.0, 10.7).resolves_edges
+    assert relief(1.0, 10.6).resolves_edges
     # less than a random field has tells of no edge
-    assert weigh_edges(relief(1.0, 1e6), kurtosis=1.2).angularity == pytest.approx(0, abs=1e-3)
+    assert weigh_edges(relief(1.0, 1e6), kurtosis=1.2) == pytest.approx(0, abs=1e-3)
 
 
 @pytest.mark.parametrize(("angularity", "noise"), [(2.2, 4.0), (0.5, 0.3), (1.4, 20.0), (0.0, 1.0)])

@@ -7,6 +7,7 @@ from rockshape.measures.angularity_2d import (
     angularity_2d_deg,
     angularity_beyond_form,
 )
+from rockshape.measures.angularity_3d import angularity_3d
 from rockshape.measures.ellipsoid_error import ellipsoid_error
 from rockshape.measures.sphericity_3d import sphericity_3d
 from rockshape.outline.form import FORM_SHARE, form_of
@@ -47,7 +48,9 @@ def _error_m(rock: RockView) -> float:
 
 
 def _summed_bend(rock: RockView) -> float:
-    return _NAN if rock.edges is None else 2 * rock.edges.angularity
+    if rock.relief is None:
+        return _NAN
+    return 2 * angularity_3d(rock.relief, rock.gradient_kurtosis)
 
 
 ROBUST = (

@@ -9,12 +9,13 @@ import numpy as np
 import pandas as pd
 from case import Cell
 
+from validation.kinds.multiview.judge.levels import DIFFERENCES
 from validation.kinds.pebbles import judge as pebbles
 from validation.scores.agreement import STATISTICS
 from validation.scores.score import Definition, Estimate, Key, estimate
 from validation.statistics import Block
 
-KNOWN = {one.key: one for one in (*pebbles.STATISTICS, *STATISTICS)}
+KNOWN = {one.key: one for one in (*pebbles.STATISTICS, *DIFFERENCES, *STATISTICS)}
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import msgspec
 import numpy as np
 import pandas as pd
-from case import Column, Table
+from case import Cell, Column, Table
 from limit_scores import Scored, scored
 from suites import chosen_suite
 
@@ -36,11 +36,17 @@ READINGS = {
     WADELL: "1 less Wadell's roundness of the exact outline, at no scale",
 }
 MEAN = "`angularity_2d` of the exact outlines, mean of the views"
+STATISTICS = {
+    "cv": "CV over views",
+    "within_over_between": "SD within over between",
+    "slope": "slope",
+    "pairs_across": "pairs in order",
+}
 Scores = dict[tuple[str, str], Scored]  # by statistic and reading
 
 
 def outline_scores(*, scenes: int, preset: str) -> Scores:
-    """Variation over views and pairs in order of each reading, on the yard of suite `yard`."""
+    """Statistics of each reading over views, on the yard of suite `yard`."""
     suite = chosen_suite("yard", only=("yard",), preset=preset)
     records = pd.concat([_read(unit) for unit in units_of(suite)[:scenes]], ignore_index=True)
     blocks = {
@@ -49,7 +55,7 @@ def outline_scores(*, scenes: int, preset: str) -> Scores:
     }
     found = {
         (statistic, READINGS[name]): scored(statistic, some, name=f"yard.robust.{name}")
-        for statistic in ("cv", "pairs_across")
+        for statistic in STATISTICS
         for name, some in blocks.items()
     }
     means = [_mean(block) for block in blocks[EXACT]]
@@ -59,18 +65,17 @@ def outline_scores(*, scenes: int, preset: str) -> Scores:
 
 def outline_table(found: Scores) -> Table:
     """Table of the readings."""
-    columns = [
-        Column("read"),
-        Column("CV over views", "", ".3f"),
-        Column("95 %"),
-        Column("rocks", "", "d"),
-    ]
-    columns += [Column("pairs in order", "", ".3f"), Column("95 %"), Column("pairs", "", "d")]
+    columns = [Column("read")]
+    for words in STATISTICS.values():
+        columns += [Column(words, "", ".3f"), Column("95 %")]
     rows = []
     for name in (*READINGS.values(), MEAN):
-        cv, pairs = found.get(("cv", name)), found["pairs_across", name]
-        rows.append((name, *((None, "–", None) if cv is None else cv.cells()), *pairs.cells()))
-    return Table(columns, rows, name="outlines")
+        row: list[Cell] = [name]
+        for statistic in STATISTICS:
+            one = found.get((statistic, name))
+            row += (None, "–") if one is None else one.cells()[:2]
+        rows.append((*row, found["pairs_across", name].count))
+    return Table((*columns, Column("pairs", "", "d")), rows, name="outlines")
 
 
 def _mean(block: Block) -> Block:

@@ -7,7 +7,7 @@ from functools import cached_property
 import msgspec
 import numpy as np
 import pandas as pd
-from case import Column, Table
+from case import Cell, Column, Table
 from limit_scores import Scored, scored
 from suites import chosen_suite
 
@@ -48,7 +48,12 @@ RELIEF, SURFACE, FORM, POWER, NOISY_RELIEF = (
     "its relief in view under such noise, form and power known",
 )
 READINGS = {"0": (OURS, SURFACE, RELIEF), "0p1": (OURS, FORM, POWER, NOISY_RELIEF)}
-Scores = dict[tuple[str, str], Scored]  # by step and reading
+STATISTICS = {
+    "tau": "order, τ",
+    "within_over_between": "SD within over between",
+    "slope": "slope",
+}
+Scores = dict[tuple[str, str, str], Scored]  # by statistic, step and reading
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,7 +144,7 @@ class Sighting:
 
 
 def relief_scores(*, scenes: int, draws: int, preset: str) -> Scores:
-    """Order of rocks by each reading on suite `relief`, from exact range and with its noise."""
+    """Statistics of each reading on suite `relief`, from exact range and with its noise."""
     suite = chosen_suite("relief", only=("relief",), preset=preset)
     units = {(unit.series, unit.scene): unit for unit in units_of(suite)}
     numbers = sorted({scene for _, scene in units})[:scenes]
@@ -154,17 +159,24 @@ def relief_scores(*, scenes: int, draws: int, preset: str) -> Scores:
                 for column in columns
             ]
             blocks = [_stacked(some) for some in zip(*stacks, strict=True)]
-            found[step, name] = scored("tau", blocks, name=f"relief.robust.{step}.{name}")
+            for statistic in STATISTICS:
+                one = scored(statistic, blocks, name=f"relief.robust.{step}.{name}")
+                found[statistic, step, name] = one
     return found
 
 
 def relief_table(found: Scores) -> Table:
     """Table of the readings."""
-    columns = (Column("range"), Column("read"), Column("order, τ", "", ".3f"), Column("95 %"))
-    rows = [
-        (STEPS[step], f"`{name}`" if name == OURS else name, *one.cells())
-        for (step, name), one in found.items()
-    ]
+    columns = [Column("range"), Column("read")]
+    for words in STATISTICS.values():
+        columns += [Column(words, "", ".3f"), Column("95 %")]
+    rows: list[tuple[Cell, ...]] = []
+    for step, names in READINGS.items():
+        for name in names:
+            row: list[Cell] = [STEPS[step], f"`{name}`" if name == OURS else name]
+            for statistic in STATISTICS:
+                row += found[statistic, step, name].cells()[:2]
+            rows.append((*row, found["tau", step, name].count))
     return Table((*columns, Column("pairs", "", "d")), rows, name="relief")
 
 

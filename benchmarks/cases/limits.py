@@ -7,10 +7,12 @@ from cases.targets import TARGETS
 from limit_scores import Scored
 from outline_limits import EXACT, OURS, outline_scores, outline_table
 from outline_limits import READINGS as OF_OUTLINES
+from outline_limits import STATISTICS as OF_YARD
 from pebble_limits import LIKE, PEBBLES, pebble_scores, pebble_table
 from pebble_limits import READINGS as OF_PEBBLES
 from relief_limits import NOISY_RELIEF, RELIEF, relief_scores, relief_table
 from relief_limits import OURS as ROUGHNESS
+from relief_limits import STATISTICS as OF_RELIEF
 from suites import suite_scores
 
 
@@ -51,7 +53,7 @@ def limits(
             "each view's exact outline",
             outlines[key, OF_OUTLINES[EXACT]],
         )
-        for key in ("cv", "pairs_across")
+        for key in OF_YARD
     ]
     first = OF_PEBBLES[0].words
     found += [
@@ -66,14 +68,14 @@ def limits(
     ]
     found += [
         Limit(
-            f"relief.robust.{step}.roughness_3d.tau",
-            reliefs[step, ROUGHNESS],
+            f"relief.robust.{step}.roughness_3d.{key}",
+            reliefs[key, step, ROUGHNESS],
             told,
-            reliefs[step, limit],
+            reliefs[key, step, limit],
         )
-        for step, limit, told in (
-            ("0", RELIEF, "the smooth form under the surface in view"),
-            ("0p1", NOISY_RELIEF, "that, and the noise's power"),
+        for key, step, limit, told in (
+            *((key, "0", RELIEF, "the smooth form under the surface in view") for key in OF_RELIEF),
+            ("tau", "0p1", NOISY_RELIEF, "that, and the noise's power"),
         )
     ]
     found.append(_fused(preset, jobs))

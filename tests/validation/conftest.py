@@ -40,7 +40,9 @@ def _rows(
             | measured
             | {"view": view, "method": "paper", "instance": instance, "rock": instance + 1}
             | {"row": 100.0 * instance, "col": 50.0, "truth_row": 100.0 * instance}
-            | {"truth_col": 50.5, "axis_a_m": 0.2, "truth_axis_a_m": 0.2}
+            | {"truth_col": 50.5, "axis_a_m": 0.2, "axis_b_m": 0.15, "axis_c_m": 0.1}
+            | {"truth_axis_a_m": 0.2, "truth_axis_b_m": 0.15, "truth_axis_c_m": 0.1}
+            | {"truth_pixel_m": 0.005}
             | {name: float(values[instance]) for name, values in truths.items()}
             | {measure: float(rng.uniform(0.1, 1.0)) for measure in MEASURES}
             for view in range(views)

@@ -36,6 +36,7 @@ def test_the_oracle_scores_one(suite, claims, noise, ranking) -> None:
     assert values["yard.angularity_2d_deg.tau_views"] == 1.0
     rounding = 1e-12
     assert values["yard.angularity_2d_deg.cv"] == pytest.approx(0.0, abs=rounding)
+    assert values["yard.angularity_2d_deg.within_over_between"] == pytest.approx(0.0, abs=rounding)
     assert values["yard.angularity_2d_deg.icc_2_1"] == pytest.approx(1.0, abs=rounding)
     assert values["shapes.sphericity.axis_ratio.gap_error"] == pytest.approx(0.0, abs=rounding)
     assert values["shapes.sphericity.axis_ratio.error"] == 0.0
@@ -121,6 +122,23 @@ def test_rocks_without_a_value_lower_the_share_answered(suite, claims, noise) ->
     expected = 1 - len(eligible[::4]) / len(eligible)
     assert values[f"yard.{column}.answered"] == pytest.approx(expected, rel=1e-12)
     assert values["yard.ellipse_error_px2.answered"] == 1
+
+
+def test_what_large_rocks_lack_is_refused(suite, claims, noise) -> None:
+    # The rocks are 2 (0.2 * 0.15 * 0.1)^(1/3) = 0.288 m across, 57.7 px of 5 mm.
+    records = oracle(noise, claims)
+    yard = records["experiment"] == "yard"
+    records.loc[yard & (records["view"] == 0), ["axis_ratio", "sphericity_3d"]] = np.nan
+    assert score_values(suite, records)["yard.refused"] == pytest.approx(2 / 7 / 4, rel=1e-12)
+    far = records.assign(truth_pixel_m=np.where(records["view"] == 0, 0.0097, 0.0096))
+    assert score_values(suite, far)["yard.refused"] == 0.0
+
+
+def test_error_of_the_half_axes(suite, claims, noise) -> None:
+    records = oracle(noise, claims)
+    assert score_values(suite, records)["yard.axes_error"] == 0.0
+    records.loc[records["view"] == 0, "axis_b_m"] = 0.12
+    assert score_values(suite, records)["yard.axes_error"] == pytest.approx(0.2 / 3 / 4, rel=1e-12)
 
 
 def test_missed_rocks_lower_recall_and_leave_the_order(suite, claims, noise) -> None:

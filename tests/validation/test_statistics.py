@@ -18,8 +18,10 @@ from validation.statistics import (
     kendall_w,
     rank_moves,
     share_in_order,
+    spreads_over_views,
     tau_b,
     weighted_tau_b,
+    weighted_within_over_between,
     within_views,
 )
 from validation.statistics.interval import bootstrap_interval
@@ -168,6 +170,28 @@ def test_rank_moves_of_independent_values_are_a_third() -> None:
     values = np.random.default_rng(6).random((2, 20000))
     # |u − v| of uniform numbers has mean 1/3 and deviation 0.236: 0.0017 for 20000, six of those.
     assert rank_moves([block(values, np.zeros(20000))]).mean() == pytest.approx(1 / 3, abs=0.01)
+
+
+def within_over_between(blocks) -> float:
+    spreads = spreads_over_views(blocks)
+    return float(weighted_within_over_between(spreads, np.ones((1, spreads.mean.size)))[0])
+
+
+def test_spread_within_a_rock_over_that_between() -> None:
+    # Means 2, 8 and 5, variance 9; variances 2, 8 and 2, mean 4. A rock of one view does not count.
+    two = block([[1, 6, 4, 7], [3, 10, 6, np.nan]], np.zeros(4))
+    assert within_over_between([two]) == pytest.approx(2 / 3, abs=ROUNDING)
+    parts = [block(two.values[:, rocks], np.zeros(2)) for rocks in ([0, 3], [1, 2])]
+    assert within_over_between(parts) == pytest.approx(2 / 3, abs=ROUNDING)
+    weights = np.array([[2.0, 1.0, 0.0, 5.0]])  # means 2, 2 and 8: variance 12; variances' mean 4
+    found = weighted_within_over_between(spreads_over_views([two]), weights)
+    assert found == pytest.approx(np.sqrt(4 / 12), abs=ROUNDING)
+
+
+def test_spread_of_independent_values_is_the_root_of_the_views() -> None:
+    values = np.random.default_rng(7).normal(size=(4, 20000))
+    # The ratio of variances has a standard error of 1.1 %, and its root half of that.
+    assert within_over_between([block(values, np.zeros(20000))]) == pytest.approx(2.0, abs=0.05)
 
 
 def test_a_views_common_factor_is_divided_out() -> None:

@@ -10,7 +10,10 @@ from validation.execution.units import units_of
 from validation.execution.work import run_unit
 from validation.kinds.multiview.spec import MultiviewExperiment
 from validation.kinds.multiview.sweep import Sweep
+from validation.scores.blocks import pooled_block
+from validation.scores.expectations import Claim
 from validation.scores.scoring import definitions
+from validation.statistics import across_views
 from validation.suite.suite import Suite
 
 
@@ -77,4 +80,24 @@ def test_every_step_shows_the_same_rocks_and_has_its_own_scores() -> None:
     pd.testing.assert_frame_equal(exact[truths], noisy[truths])
     assert not exact["axis_a_m"].equals(noisy["axis_a_m"])
     names = {definition.name for definition in definitions(suite)}
+    assert "turned.angularity_2d_deg.pooled_tau" in names
     assert {"turned.none.recall", "turned.stereo.angularity_2d_deg.tau"} <= names
+
+
+def test_order_over_all_steps_and_scenes() -> None:
+    # Rocks of the truths 1, 3 and 2 in two scenes; the second step reads 1.5 too much. Of twelve
+    # pairs, three of rocks at two steps each, 1 + 1.5 > 2 and 2 + 1.5 > 3 are out of order.
+    rows = [
+        {"experiment": "turned", "series": step, "scene": scene, "view": 0, "method": "paper"}
+        | {"instance": instance, "status": "matched", "eligible": True}
+        | {"value": truth + more, "truth_value": truth}
+        for step, more in (("1", 0.0), ("2", 1.5))
+        for scene, instance, truth in ((0, 0, 1.0), (0, 1, 3.0), (1, 0, 2.0))
+    ]
+    extra = {**rows[0], "status": "extra", "instance": None, "value": 9.0}
+    records = pd.DataFrame([*rows, extra, {**rows[0], "experiment": "other"}])
+    claim = Claim("turned", "", "paper", "value", "truth_value")
+    (block,) = pooled_block(records, claim, ("1", "2"))
+    pairs = across_views([block])
+    assert (pairs.rocks, pairs.decided, pairs.right) == (3, 12, 10)
+    assert pooled_block(records, claim, ("3",)) == ()

@@ -17,7 +17,7 @@ from validation.statistics import (
     within_views,
 )
 from validation.statistics.interval import bootstrap_interval, draws_of, in_draws
-from validation.statistics.weighted import lower_median, mean, median
+from validation.statistics.weighted import lower_median, mean, median, square_sum
 
 ROUNDING = 1e-12  # relative: sums of at most a few hundred terms
 NONE = np.zeros(9)
@@ -35,6 +35,7 @@ def draws(rng) -> np.ndarray:
     [
         (mean, np.mean),
         (median, np.median),
+        (square_sum, lambda values: values.size * values.var()),
         (lower_median, lambda values: np.quantile(values, 0.5, method="inverted_cdf")),
     ],
 )
@@ -101,3 +102,10 @@ def test_objects_are_drawn_with_their_scenes(rng) -> None:
         assert one_f1 == pytest.approx(2 * matched / (2 * matched + missed + extra), rel=ROUNDING)
         own = drawn.loc[drawn["status"] == "matched", "boundary_px"]
         assert one_median == pytest.approx(own.median(), rel=ROUNDING)
+
+
+def test_draws_of_one_rock_have_no_spread(rng) -> None:
+    values = rng.uniform(1, 2, 40)
+    assert square_sum(values, 3.0 * np.eye(40)).tolist() == [0.0] * 40
+    apart = np.array([1.0, 1.0 + 1e-12])
+    assert square_sum(apart, np.ones((1, 2)))[0] == pytest.approx(5e-25, rel=1e-3)

@@ -19,11 +19,14 @@ from validation.statistics import (
     intraclass_correlation,
     rank_moves,
     share_in_order,
+    spreads_over_views,
     tau_b,
     weighted_share_in_order,
     weighted_tau_b,
+    weighted_within_over_between,
     within_views,
 )
+from validation.statistics.interval import of_sample
 from validation.statistics.weighted import mean
 
 
@@ -56,6 +59,13 @@ def weighted_mean(values: Floats) -> Estimate:
         return Estimate(float("nan"), 0)
 
     return Estimate(float(values.mean()), int(values.size), int(values.size), partial(mean, values))
+
+
+def _within_over_between(blocks: Sequence[Block]) -> Estimate:
+    spreads = spreads_over_views(blocks)
+    weighted, rocks = partial(weighted_within_over_between, spreads), spreads.mean.size
+    counted = int(np.isfinite(spreads.mean).sum())
+    return Estimate(of_sample(weighted, rocks), counted, rocks, weighted)
 
 
 def _concordance(blocks: Sequence[Block]) -> Estimate:
@@ -125,6 +135,14 @@ STATISTICS = (
         "rocks",
         "lower",
         lambda blocks: weighted_mean(coefficients_of_variation(divide_by_view_means(blocks))),
+    ),
+    Statistic(
+        "within_over_between",
+        "standard deviation within a rock over that of the rocks' means",
+        "1",
+        "rocks",
+        "lower",
+        _within_over_between,
     ),
     Statistic(
         "rank_move",

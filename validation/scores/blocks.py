@@ -1,5 +1,6 @@
 """Records as blocks (views, rocks) of one measure, one block a scene."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -51,3 +52,24 @@ def blocks_of(records: pd.DataFrame, claim: Claim) -> tuple[Block, ...]:
         keep = np.isfinite(known)
         blocks.append(Block(values=table[:, keep], truth=known[keep]))
     return tuple(blocks)
+
+
+def pooled_block(records: pd.DataFrame, claim: Claim, series: Sequence[str]) -> tuple[Block, ...]:
+    """Block of the rocks of all scenes, seen in the views of several series; none without any.
+
+    The series are steps of a sweep, which have the same rocks.
+    """
+    own = records[
+        (records["experiment"] == claim.experiment)
+        & records["series"].isin(series)
+        & (records["status"] != "extra")
+    ]
+    return blocks_of(
+        own.assign(
+            scene=0,
+            instance=own.groupby(["scene", "instance"]).ngroup(),
+            view=own.groupby(["series", "view"]).ngroup(),
+            series=claim.series,
+        ),
+        claim,
+    )

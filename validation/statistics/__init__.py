@@ -17,6 +17,7 @@ from validation.statistics.pairs import (
     weighted_tau_b,
     within_views,
 )
+from validation.statistics.spread import spreads_over_views, weighted_within_over_between
 from validation.statistics.variation import (
     coefficients_of_variation,
     divide_by_view_means,
@@ -36,8 +37,10 @@ __all__ = [
     "kendall_w",
     "rank_moves",
     "share_in_order",
+    "spreads_over_views",
     "tau_b",
     "weighted_share_in_order",
     "weighted_tau_b",
+    "weighted_within_over_between",
     "within_views",
 ]

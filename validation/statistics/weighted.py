@@ -18,6 +18,17 @@ def mean(values: Floats, weights: Floats) -> Floats:
     return ratio(weights @ values, weights.sum(axis=1))
 
 
+def square_sum(values: Floats, weights: Floats) -> Floats:
+    """Weighted sum of squared differences from the mean; 0 where they are no more than rounding.
+
+    Values are (values,) or (draws, values).
+    """
+    middle = ratio(np.vecdot(weights, values), weights.sum(axis=1))
+    squares = np.vecdot(weights, (values - middle[:, None]) ** 2)
+    rounding = (8 * np.finfo(np.float64).eps) ** 2 * np.vecdot(weights, values**2)
+    return np.where(squares <= rounding, 0.0, squares)
+
+
 def lower_median(values: Floats, weights: Floats) -> Floats:
     """Least value up to which half of the weight lies."""
     return _middles(values, weights)[0]

@@ -6,14 +6,17 @@ from functools import partial
 
 import pandas as pd
 
+from rockshape.method import find_method
 from validation.kinds.multiview.judge import detection, levels
 from validation.kinds.multiview.spec import MultiviewExperiment, Varied
 from validation.peers import MeasureSpec, Trait
-from validation.scores.agreement import ORDERS, STATISTICS, Statistic
+from validation.scores.agreement import ORDERS, STATISTICS, Statistic, tau
+from validation.scores.blocks import pooled_block
 from validation.scores.define import define
 from validation.scores.expectations import TRUTH, Claim, JudgedColumn, columns_of, rock_claim
 from validation.scores.score import VIEW_PREFIX, Better, Definition, Estimate, Key
 from validation.scores.titles import REFERENCE, title_of_claim
+from validation.statistics import across_views
 
 # The traits that differ between rocks where an experiment varies one: roundness is the reverse of
 # angularity, whose truth is 1 − roundness.
@@ -59,6 +62,14 @@ _OF_METHOD: tuple[tuple[str, str, str, str, Better, _Compute], ...] = (
         "neither",
         levels.axis_a,
     ),
+    (
+        "axes_error",
+        "measured from true half-axes, over the true ones, mean",
+        "share",
+        "half-axes",
+        "lower",
+        levels.axes_error,
+    ),
 )
 
 
@@ -97,6 +108,34 @@ def _answered(claim: Claim) -> Definition:
         counted="found rocks",
         better="higher",
         compute=_own(key, partial(levels.answered, column=claim.measure)),
+    )
+
+
+def _refused(experiment: MultiviewExperiment, series: str, method: str) -> Definition:
+    """Share of the values that a method might have and has not."""
+    key = Key(experiment.name, method, series, "", "refused")
+    columns = [measure.column for measure in find_method(method).measures]
+    suffix = "" if method == REFERENCE else f" ({method})"
+    return Definition(
+        key=key,
+        title=f"values refused, of rocks {levels.LARGE_PX:g} px across and more{suffix}",
+        unit="share",
+        counted="found rocks",
+        better="lower",
+        compute=_own(key, partial(levels.refused, columns=columns)),
+    )
+
+
+def _over_steps(claim: Claim, steps: Sequence[str]) -> Definition:
+    """Order of all rock views of a sweep."""
+    whole = replace(claim, series="")
+    return Definition(
+        key=Key(claim.experiment, claim.method, "", claim.measure, "pooled_tau"),
+        title=f"{title_of_claim(claim)}: order over all scenes, views and steps (τ_b)",
+        unit="1",
+        counted="pairs",
+        better="higher",
+        compute=lambda records: tau(across_views(pooled_block(records, whole, steps))),
     )
 
 
@@ -171,9 +210,20 @@ def definitions(
         for statistic in (*STATISTICS, *levels.of(claim))
     ]
     valued = [_answered(claim) for claim in claims(experiment, measures)]
+    steps = experiment.series if experiment.sweep is not None else ()
+    pooled = [
+        _over_steps(claim, steps)
+        for claim in claims(experiment, measures)
+        if claim.series in steps[:1]
+    ]
+    refused = [
+        _refused(experiment, series, method)
+        for series in experiment.series
+        for method in experiment.methods
+    ]
     shown = [
         define(claim, _of_view(statistic))
         for claim in view_claims(experiment, measures)
         for statistic in (*ORDERS, *(levels.DIFFERENCES if claim.same_quantity else ()))
     ]
-    return (*found, *ranked, *valued, *shown)
+    return (*found, *ranked, *valued, *refused, *pooled, *shown)

@@ -15,9 +15,12 @@ from validation.kinds.multiview.judge.detection import rock_numbers
 from validation.scores.agreement import Statistic
 from validation.scores.expectations import Claim
 from validation.scores.score import Estimate
+from validation.scores.titles import unit_of
 from validation.statistics import Block
 from validation.statistics.interval import of_sample
-from validation.statistics.weighted import lower_median, mean, ratio
+from validation.statistics.weighted import lower_median, mean, ratio, square_sum
+
+LARGE_PX = 30.0  # across, from which a picture and exact range have all values of a rock
 
 
 def _pooled(
@@ -60,11 +63,32 @@ def axis_a(records: pd.DataFrame) -> Estimate:
     return _pooled(relative, *rock_numbers(shown, records), lower_median)
 
 
+def axes_error(records: pd.DataFrame) -> Estimate:
+    """Mean difference of the measured half-axes from the true ones, over the true ones."""
+    shown = _in_plain_view(records)
+    rock, rocks = rock_numbers(shown, records)
+    measured, true = (
+        shown[[f"{kind}axis_{axis}_m" for axis in "abc"]].to_numpy(np.float64)
+        for kind in ("", "truth_")
+    )
+    return _pooled(np.abs(measured / true - 1).ravel(), np.repeat(rock, 3), rocks, mean)
+
+
 def answered(records: pd.DataFrame, column: str) -> Estimate:
     """Share of the found rocks in plain view that have a value."""
     shown = _in_plain_view(records)
     there = np.isfinite(shown[column].to_numpy(np.float64)).astype(np.float64)
     return _pooled(there, *rock_numbers(shown, records), mean)
+
+
+def refused(records: pd.DataFrame, columns: Sequence[str]) -> Estimate:
+    """Share of columns without a value, of the found rocks in plain view that are large enough."""
+    shown = _in_plain_view(records)
+    half_axes_m = shown[[f"truth_axis_{axis}_m" for axis in "abc"]].to_numpy(np.float64)
+    across_px = 2 * np.cbrt(half_axes_m.prod(axis=1)) / shown["truth_pixel_m"].to_numpy(np.float64)
+    shown = shown[across_px >= LARGE_PX]
+    missing = np.isnan(shown[list(columns)].to_numpy(np.float64)).mean(axis=1)
+    return _pooled(missing, *rock_numbers(shown, records), mean)
 
 
 def _flat(blocks: Sequence[Block], *, less_truth: bool) -> tuple[Floats, NDArray[np.intp], int]:
@@ -88,7 +112,7 @@ def _slope(blocks: Sequence[Block]) -> Estimate:
     def slope(weights: Floats) -> Floats:
         own = weights[:, rock]
         off = truth - ratio((own * truth).sum(axis=1), own.sum(axis=1))[:, None]
-        return ratio(np.vecdot(own, off * values), np.vecdot(own, off**2))
+        return ratio(np.vecdot(own, off * values), square_sum(truth, own))
 
     return Estimate(of_sample(slope, rocks), int(values.size), rocks, slope)
 
@@ -114,5 +138,7 @@ DIFFERENCES = (_BIAS, _ERROR, _SLOPE)
 
 
 def of(claim: Claim) -> tuple[Statistic, ...]:
-    """Statistics of a claim's level; of its error where it has a truth of its own."""
-    return (_LEVEL, *DIFFERENCES) if claim.same_quantity else (_LEVEL,)
+    """Statistics of a claim's level; its slope without a unit, its error if it equals the truth."""
+    if claim.same_quantity:
+        return (_LEVEL, *DIFFERENCES)
+    return (_LEVEL,) if unit_of(claim.measure) else (_LEVEL, _SLOPE)

@@ -7,8 +7,11 @@ import numpy as np
 from cases.outlines import readers, rough_chart
 from cases.roundness import rock_outlines
 from limit_scores import Scored
-from silhouettes import REPORTED_FROM, Floats, Mask
+from silhouettes import REPORTED_FROM, Floats, Mask, draw
 
+from rockshape.measures.angularity_2d import angularity_beyond_form
+from rockshape.outline.form import form_of
+from rockshape.outline.roundness import wadell_roundness
 from validation.scores.score import score_rng
 from validation.statistics.interval import Weighted, bootstrap_interval, of_sample
 from validation.statistics.weighted import mean, ratio, square_sum
@@ -18,9 +21,12 @@ ROCKS_PX = 100
 _MEASURES = ("roundness", "angularity_2d")
 
 
-def chart_scores(*, shapes: int | None = None, scenes: int = 14) -> dict[str, Scored]:
-    """Scores by name: `chart.SIZE.MEASURE.STATISTIC` and `corners.SIZE.roundness.STATISTIC`."""
-    chart = rough_chart(REPORTED_FROM)[:shapes]
+def chart_scores(*, every: int = 1, scenes: int = 14) -> dict[str, Scored]:
+    """Scores by name: `chart.SIZE.MEASURE.STATISTIC` and `corners.SIZE.roundness.STATISTIC`.
+
+    Of the chart every so many of the outlines are taken.
+    """
+    chart = rough_chart(REPORTED_FROM)[::every]
     known = np.array([one.known for one in chart])
     read = readers()
     found = {}
@@ -35,7 +41,7 @@ def chart_scores(*, shapes: int | None = None, scenes: int = 14) -> dict[str, Sc
         }
     rocks = rock_outlines(range(REPORTED_FROM, REPORTED_FROM + scenes))
     exact = np.array([truth for _, truth in rocks])
-    told = _values(read["`roundness`"], [draw(ROCKS_PX) for draw, _ in rocks])
+    told = _values(read["`roundness`"], [drawn(ROCKS_PX) for drawn, _ in rocks])
     head = f"corners.{ROCKS_PX}.roundness"
     on_rocks = {
         f"{head}.r": partial(_correlation, exact, told),
@@ -44,6 +50,20 @@ def chart_scores(*, shapes: int | None = None, scenes: int = 14) -> dict[str, Sc
     return {name: _scored(name, one, len(chart)) for name, one in found.items()} | {
         name: _scored(name, one, len(rocks)) for name, one in on_rocks.items()
     }
+
+
+def smooth_scores(*, every: int = 1) -> dict[str, Scored]:
+    """Scores of the chart's exact outlines without their waves: `MEASURE.STATISTIC`."""
+    outlines = [one.shape.outline for one in draw("krumbein", seed=REPORTED_FROM)[::every]]
+    known = np.array([one.roundness() for one in outlines])
+    forms = [form_of(one.outline_px(), staircase=False) for one in outlines]
+    round_of = np.array([wadell_roundness(form) for form in forms if form is not None])
+    bend_of = np.array([angularity_beyond_form(form) for form in forms if form is not None])
+    found = {
+        "roundness.error": partial(mean, np.abs(round_of - known)),
+        "angularity_2d.r": partial(_correlation, -known, bend_of),
+    }
+    return {name: _scored(f"smooth.{name}", one, len(known)) for name, one in found.items()}
 
 
 def _values(reader: Callable[[Mask], float], masks: list[Mask]) -> Floats:

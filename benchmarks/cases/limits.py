@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from case import Case, Cell, Column, Table
 from cases.targets import TARGETS
+from chart_scores import CHART_SIZES_PX, chart_scores, smooth_scores
 from limit_scores import Scored
 from outline_limits import EXACT, OURS, outline_scores, outline_table
 from outline_limits import READINGS as OF_OUTLINES
@@ -14,6 +15,13 @@ from relief_limits import NOISY_RELIEF, RELIEF, relief_scores, relief_table
 from relief_limits import OURS as ROUGHNESS
 from relief_limits import STATISTICS as OF_RELIEF
 from suites import suite_scores
+
+# scores of noisy range, and the same of exact range
+OF_NOISE = {
+    f"noise.robust.0p32.sphericity_3d.{key}": f"noise.robust.0.sphericity_3d.{key}"
+    for key in ("error", "tau")
+}
+OF_FUSED = {"stereo.robust.refined.sphericity_3d.error": "exact.robust.refined.sphericity_3d.error"}
 
 
 @dataclass(frozen=True)
@@ -39,6 +47,7 @@ def limits(
     experiments: int = 2,
     sets: int = 20,
     charts: int = 5,
+    every: int = 1,
     preset: str = "",
     jobs: int = 1,
 ) -> list[Table]:
@@ -78,7 +87,11 @@ def limits(
             ("tau", "0p1", NOISY_RELIEF, "that, and the noise's power"),
         )
     ]
-    found.append(_fused(preset, jobs))
+    found += [
+        *_chart(every),
+        *_by_range("noise", OF_NOISE, preset, jobs),
+        *_by_range("fused", OF_FUSED, preset, jobs),
+    ]
     columns = (
         Column("what"),
         Column("target"),
@@ -93,12 +106,28 @@ def limits(
     return [summary, outline_table(outlines), pebble_table(pebbles), relief_table(reliefs)]
 
 
-def _fused(preset: str, jobs: int) -> Limit:
-    """Sphericity from four views by stereo, beside that from exact range."""
-    scores = suite_scores("fused", preset=preset, jobs=jobs).set_index("name")
-    name = "{}.robust.refined.sphericity_3d.error"
-    stereo, exact = (Scored.of(scores.loc[name.format(kind)]) for kind in ("stereo", "exact"))
-    return Limit(name.format("stereo"), stereo, "exact range", exact)
+def _chart(every: int) -> list[Limit]:
+    """Rough silhouettes, beside the same without what makes them rough."""
+    ours, smooth = chart_scores(every=every, scenes=1), smooth_scores(every=every)
+    names = [(500, "roundness.error"), *((size, "angularity_2d.r") for size in CHART_SIZES_PX)]
+    return [
+        Limit(
+            f"chart.{size_px}.{name}",
+            ours[f"chart.{size_px}.{name}"],
+            "the exact outline without its waves",
+            smooth[name],
+        )
+        for size_px, name in names
+    ]
+
+
+def _by_range(suite: str, names: dict[str, str], preset: str, jobs: int) -> list[Limit]:
+    """Scores of noisy range, beside those of the same rocks from exact range."""
+    scores = suite_scores(suite, preset=preset, jobs=jobs).set_index("name")
+    return [
+        Limit(noisy, Scored.of(scores.loc[noisy]), "exact range", Scored.of(scores.loc[exact]))
+        for noisy, exact in names.items()
+    ]
 
 
 LIMITS_CASE = Case(
@@ -112,6 +141,7 @@ LIMITS_CASE = Case(
         "experiments": 1,
         "sets": 1,
         "charts": 1,
+        "every": 9,
         "preset": "imp",
         "jobs": 1,
     },

@@ -210,7 +210,7 @@ SUITES = tuple(dict.fromkeys(target.suite for target in TARGETS))
 def targets(
     *,
     suites: tuple[str, ...] = SUITES,
-    shapes: int | None = None,
+    every: int = 1,
     scenes: int = 14,
     preset: str = "",
     jobs: int = 2,
@@ -219,7 +219,7 @@ def targets(
     rows: list[tuple[Cell, ...]] = []
     for suite in suites:
         if suite == CHART:
-            found = chart_scores(shapes=shapes, scenes=scenes)
+            found = chart_scores(every=every, scenes=scenes)
         else:
             scores = suite_scores(suite, preset=preset, jobs=jobs).set_index("name")
             found = {target.score: Scored.of(scores.loc[target.score]) for target in _of(suite)}
@@ -251,7 +251,7 @@ TARGETS_CASE = Case(
     name="targets",
     what="targets of the robust measures beside what suites score on seeds held out",
     run=targets,
-    smallest={"suites": (CHART, "yard"), "shapes": 9, "scenes": 1, "preset": "imp", "jobs": 1},
+    smallest={"suites": (CHART, "yard"), "every": 9, "scenes": 1, "preset": "imp", "jobs": 1},
     threads=2,
     slow=True,
 )

@@ -72,13 +72,13 @@ class _MeanSquares:
         low = stats.f.isf(_TAIL, self.rock_freedom, freedom)
         high = stats.f.isf(_TAIL, freedom, self.rock_freedom)
         return (
-            n * (self.rocks - low * self.error) / (low * noise + n * self.rocks),
-            n * (high * self.rocks - self.error) / (noise + n * high * self.rocks),
+            _ratio(n * (self.rocks - low * self.error), low * noise + n * self.rocks),
+            _ratio(n * (high * self.rocks - self.error), noise + n * high * self.rocks),
         )
 
 
 def _ratio(part: float, whole: float) -> float:
-    return part / whole if whole > 0 else math.nan
+    return part / whole if 0 < whole < math.inf else math.nan
 
 
 def intraclass_correlation(blocks: Sequence[Block]) -> IntraclassCorrelation:

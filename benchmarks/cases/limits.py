@@ -16,12 +16,11 @@ from relief_limits import OURS as ROUGHNESS
 from relief_limits import STATISTICS as OF_RELIEF
 from suites import suite_scores
 
+_NOISE = "noise.robust.{}.sphericity_3d.{}"
+_FUSED = "{}.robust.refined.sphericity_3d.absolute_error"
 # scores of noisy range, and the same of exact range
-OF_NOISE = {
-    f"noise.robust.0p32.sphericity_3d.{key}": f"noise.robust.0.sphericity_3d.{key}"
-    for key in ("error", "tau")
-}
-OF_FUSED = {"stereo.robust.refined.sphericity_3d.error": "exact.robust.refined.sphericity_3d.error"}
+OF_NOISE = {_NOISE.format("0p32", "tau"): _NOISE.format("0", "tau")}
+OF_FUSED = {_FUSED.format("stereo"): _FUSED.format("exact")}
 
 
 @dataclass(frozen=True)

@@ -141,6 +141,18 @@ def test_error_of_the_half_axes(suite, claims, noise) -> None:
     assert score_values(suite, records)["yard.axes_error"] == pytest.approx(0.2 / 3 / 4, rel=1e-12)
 
 
+def test_mean_absolute_error_beside_the_root_mean_square(suite, claims, noise) -> None:
+    records = oracle(noise, claims)
+    form = records["experiment"] == "form"
+    true = records.loc[form, "truth_maximum_projection_sphericity"]
+    off = np.where(records.loc[form, "view"] == 0, 0.4, -0.1)
+    records.loc[form, "sphericity_3d"] = true + off
+    values = score_values(suite, records)
+    assert values["form.sphericity_3d.absolute_error"] == pytest.approx(0.7 / 4, rel=1e-12)
+    assert values["form.sphericity_3d.error"] == pytest.approx(np.sqrt(0.19 / 4), rel=1e-12)
+    assert values["form.sphericity_3d.bias"] == pytest.approx(0.1 / 4, rel=1e-12)
+
+
 def test_missed_rocks_lower_recall_and_leave_the_order(suite, claims, noise) -> None:
     fed = oracle(noise, claims)
     lost = (fed["experiment"] == "yard") & (fed["view"] == 0) & (fed["instance"] == 2)

@@ -129,12 +129,25 @@ def _error(blocks: Sequence[Block]) -> Estimate:
     return _pooled(*_flat(blocks, less_truth=True), _rms)
 
 
+def _absolute_error(blocks: Sequence[Block]) -> Estimate:
+    differences, rock, rocks = _flat(blocks, less_truth=True)
+    return _pooled(np.abs(differences), rock, rocks, mean)
+
+
 _VIEWS = "rock views"
 _LEVEL = Statistic("level", "mean value", "", _VIEWS, "neither", _level)
 _BIAS = Statistic("bias", "mean difference from the truth", "", _VIEWS, "neither", _bias)
 _ERROR = Statistic("error", "RMS difference from the truth", "", _VIEWS, "lower", _error)
+_ABSOLUTE_ERROR = Statistic(
+    "absolute_error",
+    "mean absolute difference from the truth",
+    "",
+    _VIEWS,
+    "lower",
+    _absolute_error,
+)
 _SLOPE = Statistic("slope", "slope of measured on true values", "1", _VIEWS, "neither", _slope)
-DIFFERENCES = (_BIAS, _ERROR, _SLOPE)
+DIFFERENCES = (_BIAS, _ERROR, _ABSOLUTE_ERROR, _SLOPE)
 
 
 def of(claim: Claim) -> tuple[Statistic, ...]:

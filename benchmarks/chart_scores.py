@@ -57,8 +57,10 @@ def smooth_scores(*, every: int = 1) -> dict[str, Scored]:
     outlines = [one.shape.outline for one in draw("krumbein", seed=REPORTED_FROM)[::every]]
     known = np.array([one.roundness() for one in outlines])
     forms = [form_of(one.outline_px(), staircase=False) for one in outlines]
-    round_of = np.array([wadell_roundness(form) for form in forms if form is not None])
-    bend_of = np.array([angularity_beyond_form(form) for form in forms if form is not None])
+    round_of, bend_of = (
+        np.array([np.nan if form is None else read(form) for form in forms])
+        for read in (wadell_roundness, angularity_beyond_form)
+    )
     found = {
         "roundness.error": partial(mean, np.abs(round_of - known)),
         "angularity_2d.r": partial(_correlation, -known, bend_of),

@@ -1,4 +1,4 @@
-"""Targets that are not met beside what an estimator with the true outline or surface would get."""
+"""Targets beside what an estimator reaches that is told the truth of outline, surface or noise."""
 
 from dataclasses import dataclass
 
@@ -131,7 +131,7 @@ def _by_range(suite: str, names: dict[str, str], preset: str, jobs: int) -> list
 
 LIMITS_CASE = Case(
     name="limits",
-    what="targets not met beside what the true outline or surface would tell",
+    what="targets beside what the true outline, surface or range would tell",
     run=limits,
     smallest={
         "scenes": 1,

@@ -2,11 +2,13 @@
 
 import math
 
+import msgspec
 import numpy as np
 import pandas as pd
 import pytest
 
 from validation.kinds.shapes.judge import gap_shares
+from validation.peers import MeasureSpec
 from validation.scores.scoring import (
     all_view_claims,
     definitions,
@@ -137,8 +139,42 @@ def test_what_large_rocks_lack_is_refused(suite, claims, noise) -> None:
 def test_error_of_the_half_axes(suite, claims, noise) -> None:
     records = oracle(noise, claims)
     assert score_values(suite, records)["yard.axes_error"] == 0.0
-    records.loc[records["view"] == 0, "axis_b_m"] = 0.12
-    assert score_values(suite, records)["yard.axes_error"] == pytest.approx(0.2 / 3 / 4, rel=1e-12)
+    # 0.2 of the rocks whose number is even; of one of those alone, drawn again and again, likewise
+    even = records["instance"].isin([0, 2, 4])
+    records.loc[even, ["axis_a_m", "axis_b_m", "axis_c_m"]] = [0.22, 0.12, 0.13]
+    (axes,) = (one for one in definitions(suite) if one.name == "yard.axes_error")
+    found = axes.compute(records)
+    assert found.value == pytest.approx(0.1, rel=1e-12)
+    assert found.weighted(np.eye(found.rocks)).tolist() == pytest.approx([0.2, 0] * 12, abs=1e-12)
+
+
+def test_slope_of_measured_on_true_values(suite, noise) -> None:
+    form = noise["experiment"] == "form"
+    records = noise[form].copy()
+    records.loc[records["view"] == 1, "sphericity_3d"] = np.nan
+    true = records["truth_maximum_projection_sphericity"]
+    kept = records["sphericity_3d"].notna()
+    slope, _ = np.polyfit(true[kept], records.loc[kept, "sphericity_3d"], 1)
+    found = {one.name: one.compute for one in definitions(suite)}
+    assert found["form.sphericity_3d.slope"](records).value == pytest.approx(slope, rel=1e-9)
+    # a rock drawn twice weighs twice
+    rock = records["scene"] * 6 + records["instance"]
+    twice = 1 + (rock % 2).to_numpy()
+    weighted, _ = np.polyfit(
+        true[kept], records.loc[kept, "sphericity_3d"], 1, w=np.sqrt(twice[kept])
+    )
+    both = found["form.sphericity_3d.slope"](records).weighted(1.0 + np.arange(24)[None] % 2)
+    assert both[0] == pytest.approx(weighted, rel=1e-9)
+
+
+def test_slopes_of_pure_numbers_alone(suite) -> None:
+    names = {one.name for one in definitions(suite)}
+    assert {"form.axis_ratio.slope", "form.sphericity_2d.slope"} <= names
+    assert "yard.angularity_2d_deg.slope" not in names
+    theirs = MeasureSpec(name="mine", function="m:f", expected_trait={"bumps": "angularity"})
+    names = {one.name for one in definitions(msgspec.structs.replace(suite, measures=(theirs,)))}
+    assert "yard.mine.bumps.tau" in names
+    assert "yard.mine.bumps.slope" not in names
 
 
 def test_mean_absolute_error_beside_the_root_mean_square(suite, claims, noise) -> None:

@@ -236,6 +236,15 @@ def test_icc_intervals_cover() -> None:
     assert (hits / 300 >= 0.885).all()
 
 
+@pytest.mark.parametrize(
+    "logs", [[[0, 10], [5, 5], [10, 0]], [[0, 1, 0], [1, 0, 1]], [[0, 0, 0], [1, 1, 1]]]
+)
+def test_icc_has_both_ends_of_an_interval_or_none(logs) -> None:
+    found = intraclass_correlation([block(np.exp(logs), np.zeros(len(logs[0])))])
+    for ends in (found.icc_2_1_interval, found.icc_3_1_interval):
+        assert np.isfinite(ends).all() or np.isnan(ends).all()
+
+
 def test_icc_needs_positive_values() -> None:
     assert np.isnan(intraclass_correlation([block([[1, 2], [0, 3]], [1, 2])]).icc_2_1)
 

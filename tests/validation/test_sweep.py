@@ -101,3 +101,26 @@ def test_order_over_all_steps_and_scenes() -> None:
     pairs = across_views([block])
     assert (pairs.rocks, pairs.decided, pairs.right) == (3, 12, 10)
     assert pooled_block(records, claim, ("3",)) == ()
+
+
+def test_pooled_order_takes_every_step_at_its_own_truth() -> None:
+    turned = experiment(sweep("noise.kind", ("none", "stereo")))
+    column = "angularity_2d_deg"
+    rows = [
+        {"experiment": "turned", "series": step, "scene": 0, "view": 0, "method": "paper"}
+        | {"instance": rock, "status": "matched", "eligible": True}
+        | {column: value, "truth_angularity": truth}
+        for step, rock, value, truth in (
+            ("none", 0, 1.0, 0.1),
+            ("none", 1, 2.0, 0.2),
+            ("stereo", 0, 4.0, 0.4),
+            ("stereo", 1, 3.0, 0.3),
+        )
+    ]
+    # of the pairs of both rocks, each at both steps, all four are in the order of their own truths
+    names = {
+        one.name: one
+        for one in definitions(Suite(name="s", title="S", experiments=(turned,), gates=()))
+    }
+    found = names[f"turned.{column}.pooled_tau"].compute(pd.DataFrame(rows))
+    assert (found.value, found.count) == (1.0, 4)

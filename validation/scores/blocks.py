@@ -1,6 +1,7 @@
 """Records as blocks (views, rocks) of one measure, one block a scene."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -57,7 +58,7 @@ def blocks_of(records: pd.DataFrame, claim: Claim) -> tuple[Block, ...]:
 def pooled_block(records: pd.DataFrame, claim: Claim, series: Sequence[str]) -> tuple[Block, ...]:
     """Block of the rocks of all scenes, seen in the views of several series; none without any.
 
-    The series are steps of a sweep, which have the same rocks.
+    The series are steps of a sweep; a rock's truth may differ between them.
     """
     own = records[
         (records["experiment"] == claim.experiment)
@@ -71,5 +72,5 @@ def pooled_block(records: pd.DataFrame, claim: Claim, series: Sequence[str]) -> 
             view=own.groupby(["series", "view"]).ngroup(),
             series=claim.series,
         ),
-        claim,
+        replace(claim, per_view=True),
     )

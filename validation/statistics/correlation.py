@@ -65,16 +65,18 @@ class _MeanSquares:
         n, k = self.n, self.k
         view_part = k * rho / (n * (1 - rho)) * self.views
         error_part = (1 + k * rho * (n - 1) / (n * (1 - rho))) * self.error
-        freedom = (view_part + error_part) ** 2 / (
-            view_part**2 / self.view_freedom + error_part**2 / self.error_freedom
+        freedom = _ratio(
+            (view_part + error_part) ** 2,
+            view_part**2 / self.view_freedom + error_part**2 / self.error_freedom,
         )
         noise = k * self.views + (k * n - k - n) * self.error
         low = stats.f.isf(_TAIL, self.rock_freedom, freedom)
         high = stats.f.isf(_TAIL, freedom, self.rock_freedom)
-        return (
+        ends = (
             _ratio(n * (self.rocks - low * self.error), low * noise + n * self.rocks),
             _ratio(n * (high * self.rocks - self.error), noise + n * high * self.rocks),
         )
+        return ends if all(map(math.isfinite, ends)) else _NO_INTERVAL
 
 
 def _ratio(part: float, whole: float) -> float:

@@ -23,8 +23,9 @@ def square_sum(values: Floats, weights: Floats) -> Floats:
 
     Values are (values,) or (draws, values).
     """
-    middle = ratio(np.vecdot(weights, values), weights.sum(axis=1))
-    squares = np.vecdot(weights, (values - middle[:, None]) ** 2)
+    moved = values - values[..., :1]  # so that equal ones, however many, leave no rounding
+    middle = ratio(np.vecdot(weights, moved), weights.sum(axis=1))
+    squares = np.vecdot(weights, (moved - middle[:, None]) ** 2)
     rounding = (8 * np.finfo(np.float64).eps) ** 2 * np.vecdot(weights, values**2)
     return np.where(squares <= rounding, 0.0, squares)
 

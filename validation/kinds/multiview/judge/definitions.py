@@ -28,7 +28,8 @@ _TRAITS: dict[Varied, tuple[Trait, ...]] = {
 _FORM = "maximum_projection_sphericity"  # truth of a solid's form
 
 _Compute = Callable[[pd.DataFrame], Estimate]
-_OF_METHOD: tuple[tuple[str, str, str, str, Better, _Compute], ...] = (
+_Row = tuple[str, str, str, str, Better, _Compute]
+_OF_METHOD: tuple[_Row, ...] = (
     ("recall", "rocks found", "share", "rocks in views", "higher", detection.recall),
     (
         "precision",
@@ -64,7 +65,7 @@ _OF_METHOD: tuple[tuple[str, str, str, str, Better, _Compute], ...] = (
     ),
     (
         "axes_error",
-        "measured from true half-axes, over the true ones, mean",
+        "mean absolute relative error of the half-axes",
         "share",
         "half-axes",
         "lower",
@@ -83,6 +84,19 @@ def _own(key: Key, compute: _Compute) -> _Compute:
     )
 
 
+def _refused(method: str) -> _Row:
+    """Share of the method's measures that have no value, where rocks are large enough."""
+    columns = [measure.column for measure in find_method(method).measures]
+    return (
+        "refused",
+        f"values refused, of rocks in plain view {levels.LARGE_PX:g} px across and more",
+        "share",
+        "found rocks",
+        "lower",
+        partial(levels.refused, columns=columns),
+    )
+
+
 def _of_method(experiment: MultiviewExperiment, series: str, method: str) -> list[Definition]:
     suffix = "" if method == REFERENCE else f" ({method})"
     return [
@@ -94,7 +108,7 @@ def _of_method(experiment: MultiviewExperiment, series: str, method: str) -> lis
             better=better,
             compute=_own(key, compute),
         )
-        for statistic, title, unit, counted, better, compute in _OF_METHOD
+        for statistic, title, unit, counted, better, compute in (*_OF_METHOD, _refused(method))
     ]
 
 
@@ -108,21 +122,6 @@ def _answered(claim: Claim) -> Definition:
         counted="found rocks",
         better="higher",
         compute=_own(key, partial(levels.answered, column=claim.measure)),
-    )
-
-
-def _refused(experiment: MultiviewExperiment, series: str, method: str) -> Definition:
-    """Share of the values that a method might have and has not."""
-    key = Key(experiment.name, method, series, "", "refused")
-    columns = [measure.column for measure in find_method(method).measures]
-    suffix = "" if method == REFERENCE else f" ({method})"
-    return Definition(
-        key=key,
-        title=f"values refused, of rocks {levels.LARGE_PX:g} px across and more{suffix}",
-        unit="share",
-        counted="found rocks",
-        better="lower",
-        compute=_own(key, partial(levels.refused, columns=columns)),
     )
 
 
@@ -204,26 +203,21 @@ def definitions(
         for method in experiment.methods
         for definition in _of_method(experiment, series, method)
     ]
+    of_rocks = claims(experiment, measures)
     ranked = [
         define(claim, statistic)
-        for claim in claims(experiment, measures)
+        for claim in of_rocks
         for statistic in (*STATISTICS, *levels.of(claim))
     ]
-    valued = [_answered(claim) for claim in claims(experiment, measures)]
-    steps = experiment.series if experiment.sweep is not None else ()
+    valued = [_answered(claim) for claim in of_rocks]
     pooled = [
-        _over_steps(claim, steps)
-        for claim in claims(experiment, measures)
-        if claim.series in steps[:1]
-    ]
-    refused = [
-        _refused(experiment, series, method)
-        for series in experiment.series
-        for method in experiment.methods
+        _over_steps(claim, experiment.series)
+        for claim in of_rocks
+        if experiment.sweep is not None and claim.series == experiment.series[0]
     ]
     shown = [
         define(claim, _of_view(statistic))
         for claim in view_claims(experiment, measures)
         for statistic in (*ORDERS, *(levels.DIFFERENCES if claim.same_quantity else ()))
     ]
-    return (*found, *ranked, *valued, *refused, *pooled, *shown)
+    return (*found, *ranked, *valued, *pooled, *shown)

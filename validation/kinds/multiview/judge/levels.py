@@ -10,17 +10,17 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from rockshape.method import measure_of
 from validation.arrays import Floats
 from validation.kinds.multiview.judge.detection import rock_numbers
 from validation.scores.agreement import Statistic
 from validation.scores.expectations import Claim
 from validation.scores.score import Estimate
-from validation.scores.titles import unit_of
 from validation.statistics import Block
 from validation.statistics.interval import of_sample
 from validation.statistics.weighted import lower_median, mean, ratio, square_sum
 
-LARGE_PX = 30.0  # across, from which a picture and exact range have all values of a rock
+LARGE_PX = 30.0  # diameter of the ball of a rock's half-axes, from which values are expected
 
 
 def _pooled(
@@ -64,7 +64,7 @@ def axis_a(records: pd.DataFrame) -> Estimate:
 
 
 def axes_error(records: pd.DataFrame) -> Estimate:
-    """Mean difference of the measured half-axes from the true ones, over the true ones."""
+    """Mean absolute relative error of the half-axes."""
     shown = _in_plain_view(records)
     rock, rocks = rock_numbers(shown, records)
     measured, true = (
@@ -82,7 +82,10 @@ def answered(records: pd.DataFrame, column: str) -> Estimate:
 
 
 def refused(records: pd.DataFrame, columns: Sequence[str]) -> Estimate:
-    """Share of columns without a value, of the found rocks in plain view that are large enough."""
+    """Share of columns without a value, of the found rocks in plain view that are large enough.
+
+    A rock is as large as the ball of its true half-axes, 2 (abc)^(1/3), is in the view.
+    """
     shown = _in_plain_view(records)
     half_axes_m = shown[[f"truth_axis_{axis}_m" for axis in "abc"]].to_numpy(np.float64)
     across_px = 2 * np.cbrt(half_axes_m.prod(axis=1)) / shown["truth_pixel_m"].to_numpy(np.float64)
@@ -103,7 +106,7 @@ def _flat(blocks: Sequence[Block], *, less_truth: bool) -> tuple[Floats, NDArray
 
 
 def _slope(blocks: Sequence[Block]) -> Estimate:
-    """Least-squares slope of measured on true values; 1 is calibrated."""
+    """Least-squares slope of measured on true values; 1 is calibrated if they are one quantity."""
     values, rock, rocks = _flat(blocks, less_truth=False)
     truth = np.concatenate([np.empty(0), *(block.view_truth.ravel() for block in blocks)])
     keep = np.isfinite(values) & np.isfinite(truth)
@@ -151,7 +154,11 @@ DIFFERENCES = (_BIAS, _ERROR, _ABSOLUTE_ERROR, _SLOPE)
 
 
 def of(claim: Claim) -> tuple[Statistic, ...]:
-    """Statistics of a claim's level; its slope without a unit, its error if it equals the truth."""
+    """Statistics of a claim's level; its error where measure and truth are one quantity.
+
+    A measure of ours without a unit has a slope on any truth.
+    """
     if claim.same_quantity:
         return (_LEVEL, *DIFFERENCES)
-    return (_LEVEL,) if unit_of(claim.measure) else (_LEVEL, _SLOPE)
+    measure = measure_of(claim.measure)
+    return (_LEVEL,) if measure is None or measure.unit else (_LEVEL, _SLOPE)

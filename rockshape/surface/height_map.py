@@ -45,20 +45,22 @@ def average_in_cells(place: NDArray[np.float64], heights: NDArray[np.float64]) -
     return Cells(means(place), means(heights), count, cell)
 
 
-def covered_places(place: NDArray[np.float64]) -> NDArray[np.float64]:
+def covered_places(
+    place: NDArray[np.float64], *, within: NDArray[np.float64]
+) -> NDArray[np.float64]:
     """Centres (m, 2) of the cells that hold points at places (n, 2) or lie between such cells.
 
-    Of the morphological closing by a disk of five cells, within the rectangle of the places: a cell
-    whose only point is missing counts as before.
+    Of the morphological closing by a disk of five cells, within the rectangle of other places
+    (k, 2): a cell whose only point is missing counts as before.
     """
-    low, high = place.min(axis=0), place.max(axis=0)
-    first = np.floor(low / CELL)
+    first = np.floor(place.min(axis=0) / CELL)
     index = (np.floor(place / CELL) - first).astype(np.intp)
     margin = DISK.shape[0] // 2
     held = np.zeros(index.max(axis=0) + 1 + 2 * margin, dtype=np.uint8)
     held[tuple((index + margin).T)] = 1
     closed = np.argwhere(cv2.morphologyEx(held, cv2.MORPH_CLOSE, DISK)) - margin
     centres = (first + closed + 0.5) * CELL
+    low, high = within.min(axis=0), within.max(axis=0)
     return np.asarray(centres[((centres >= low) & (centres <= high)).all(axis=1)])
 
 

@@ -10,7 +10,6 @@ from rockshape.numerics.robust_scale import MEDIAN_TO_SIGMA
 from rockshape.surface.basis import Knots
 from rockshape.surface.height_map import (
     CELL,
-    Cells,
     HeightMap,
     average_in_cells,
     covered_places,
@@ -101,21 +100,25 @@ def measure_relief(
 
 def _relief(place: NDArray[np.float64], heights: NDArray[np.float64]) -> Relief | None:
     """Relief of points with places (n, 4): x, y, cosine and normal; and heights (n, 1 + draws)."""
-    cells, surface = _surface(place, heights)
+    cells = average_in_cells(place, heights)
+    surface = HeightMap.of(NET, cells.place[:, :2], cells.heights)
     smooth = None if surface is None else surface.fit(RELIEF_SMOOTHING)
     if smooth is None:
         return None
     misfit = np.abs(heights[:, 0] - smooth.heights[cells.cell, 0])
     sound = misfit <= max(OUTLIER * MEDIAN_TO_SIGMA * float(np.median(misfit)), MIN_OUTLIER)
-    spots = covered_places(place[sound, :2])
+    cells = average_in_cells(place[sound], heights[sound])
+    spots = covered_places(place[sound, :2], within=cells.place[:, :2])
     cosine = 1 - (spots**2).sum(axis=1) / 2  # of the equal-area projection
     spots, cosine = spots[cosine > FACING], cosine[cosine > FACING]
-    cells, surface = _surface(place[sound], heights[sound], bends_at=spots)
     facing = cells.place[:, 2] > FACING
     count = int(cells.count[facing].sum())
-    if surface is None or count == 0 or len(spots) == 0:
+    if count == 0 or len(spots) == 0:
         return None
+    surface = HeightMap.of(NET, cells.place[:, :2], cells.heights, bends_at=spots)
     spacing = CELL * float(np.sqrt(len(spots) / count))
+    if surface is None:
+        return None
     smooth = surface.fit(RELIEF_SMOOTHING)
     fine = surface.fit(max(EDGE_SMOOTHING, EDGE_SPACING * spacing))
     if smooth is None or fine is None:
@@ -133,16 +136,6 @@ def _relief(place: NDArray[np.float64], heights: NDArray[np.float64]) -> Relief 
         noise_rough=float(np.sqrt(variance[1:].mean())) if len(moved) else 0.0,
         facing=count,
     )
-
-
-def _surface(
-    place: NDArray[np.float64],
-    heights: NDArray[np.float64],
-    *,
-    bends_at: NDArray[np.float64] | None = None,
-) -> tuple[Cells, HeightMap | None]:
-    cells = average_in_cells(place, heights)
-    return cells, HeightMap.of(NET, cells.place[:, :2], cells.heights, bends_at=bends_at)
 
 
 def _cubed(bends: NDArray[np.float64], weight: NDArray[np.float64]) -> NDArray[np.float64]:

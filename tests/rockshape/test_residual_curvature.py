@@ -1,5 +1,7 @@
 """What stands out of a rock's ellipsoid."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -55,6 +57,28 @@ def cut(points: np.ndarray, rounding: float) -> np.ndarray:
         outside = np.maximum(np.abs(reach[:, None] * direction) - half, 0)
         reach -= np.linalg.norm(outside, axis=1) - 0.85 * rounding
     return BODY.from_sphere(reach[:, None] * direction)
+
+
+def strip(body: Ellipsoid, left: float, right: float) -> np.ndarray:
+    """Points of the side towards the camera, between two places along the longest axis in radii."""
+    towards = body.to_sphere(np.zeros(3))
+    drawn = np.random.default_rng(3).normal(size=(400_000, 3))
+    drawn /= np.linalg.norm(drawn, axis=1)[:, None]
+    kept = (drawn[:, 0] > left) & (drawn[:, 0] < right) & (drawn @ towards > 0)
+    return body.from_sphere(drawn[kept][:3000])
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("width", [0.05, 0.08, 0.1, 0.12, 0.2, 0.5])
+def test_a_strip_of_an_ellipsoid_has_none(width) -> None:
+    found = relief(strip(BODY, 0.0, width))
+    assert found.edge_bend_cubed == pytest.approx(0.0, abs=1e-9)
+    assert found.rough == pytest.approx(0.0, abs=1e-9)
+
+
+def test_a_strip_that_holds_no_middle_of_a_cell_is_not_measured() -> None:
+    upright = replace(BODY, centre_m=np.array([0.0, 0.0, 2.0]), axes=np.eye(3))
+    assert measure_relief(upright, strip(upright, 0.0, 0.02)) is None
 
 
 def test_an_ellipsoid_has_none() -> None:

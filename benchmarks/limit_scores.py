@@ -1,13 +1,13 @@
 """Scores of values that no suite has, by the statistics and the intervals of the suites."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Self
 
 import numpy as np
 import pandas as pd
-from case import Cell
+from case import Cell, Column
 
 from validation.kinds.multiview.judge.levels import DIFFERENCES
 from validation.kinds.pebbles import judge as pebbles
@@ -42,6 +42,16 @@ class Scored:
     def cells(self) -> tuple[Cell, ...]:
         """Value, interval and count."""
         return self.value, self.interval, self.count
+
+
+def score_columns(words: Iterable[str]) -> list[Column]:
+    """Columns of statistics, each with its interval."""
+    return [column for one in words for column in (Column(one, "", ".3f"), Column("95 %"))]
+
+
+def score_cells(scores: Iterable[Scored | None]) -> list[Cell]:
+    """Cells of those columns; empty where there is no score."""
+    return [cell for one in scores for cell in (one.cells()[:2] if one else (None, "–"))]
 
 
 def scored(statistic: str, blocks: Sequence[Block], *, name: str) -> Scored:

@@ -6,7 +6,7 @@ import msgspec
 import numpy as np
 import pandas as pd
 from case import Cell, Column, Table
-from limit_scores import Scored, scored
+from limit_scores import Scored, score_cells, score_columns, scored
 from suites import chosen_suite
 
 from rockshape.measures import angularity_2d
@@ -65,16 +65,11 @@ def outline_scores(*, scenes: int, preset: str) -> Scores:
 
 def outline_table(found: Scores) -> Table:
     """Table of the readings."""
-    columns = [Column("read")]
-    for words in STATISTICS.values():
-        columns += [Column(words, "", ".3f"), Column("95 %")]
-    rows = []
+    columns = (Column("read"), *score_columns(STATISTICS.values()))
+    rows: list[tuple[Cell, ...]] = []
     for name in (*READINGS.values(), MEAN):
-        row: list[Cell] = [name]
-        for statistic in STATISTICS:
-            one = found.get((statistic, name))
-            row += (None, "–") if one is None else one.cells()[:2]
-        rows.append((*row, found["pairs_across", name].count))
+        cells = score_cells(found.get((statistic, name)) for statistic in STATISTICS)
+        rows.append((name, *cells, found["pairs_across", name].count))
     return Table((*columns, Column("pairs", "", "d")), rows, name="outlines")
 
 

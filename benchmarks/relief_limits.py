@@ -8,7 +8,7 @@ import msgspec
 import numpy as np
 import pandas as pd
 from case import Cell, Column, Table
-from limit_scores import Scored, scored
+from limit_scores import Scored, score_cells, score_columns, scored
 from suites import chosen_suite
 
 from rockshape.ground.noise_model import NoiseModel
@@ -169,17 +169,13 @@ def relief_scores(*, scenes: int, draws: int, preset: str) -> Scores:
 
 def relief_table(found: Scores) -> Table:
     """Table of the readings."""
-    columns = [Column("range"), Column("read")]
-    for words in STATISTICS.values():
-        columns += [Column(words, "", ".3f"), Column("95 %")]
+    columns = (Column("range"), Column("read"), *score_columns(STATISTICS.values()))
     rows: list[tuple[Cell, ...]] = []
     for step, names in READINGS.items():
         for name in names:
-            row: list[Cell] = [STEPS[step], f"`{name}`" if name == OURS else name]
-            for statistic in STATISTICS:
-                one = found.get((statistic, step, name))
-                row += (None, "–") if one is None else one.cells()[:2]
-            rows.append((*row, found["tau", step, name].count))
+            words = f"`{name}`" if name == OURS else name
+            cells = score_cells(found.get((statistic, step, name)) for statistic in STATISTICS)
+            rows.append((STEPS[step], words, *cells, found["tau", step, name].count))
     return Table((*columns, Column("pairs", "", "d")), rows, name="relief")
 
 

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from validation.statistics.block import Block
+from validation.statistics.spread import spreads_over_views
 
 
 def divide_by_view_means(blocks: Sequence[Block]) -> tuple[Block, ...]:
@@ -33,16 +34,8 @@ def coefficients_of_variation(blocks: Sequence[Block]) -> NDArray[np.float64]:
     (rocks,), in the blocks' order; NaN for a rock that fewer than two views show, and where the
     mean is not positive.
     """
-    cvs: list[NDArray[np.float64]] = [np.empty(0)]
-    for block in blocks:
-        cv = np.full(block.rocks, np.nan)
-        often = np.isfinite(block.values).sum(axis=0) > 1
-        shown = block.values[:, often]
-        mean = np.nanmean(shown, axis=0) if often.any() else np.empty(0)
-        spread = np.nanstd(shown, axis=0, ddof=1) if often.any() else np.empty(0)
-        cv[often] = np.where(mean > 0, spread, np.nan) / mean
-        cvs.append(cv)
-    return np.concatenate(cvs)
+    spreads = spreads_over_views(blocks)
+    return np.sqrt(spreads.variance) / np.where(spreads.mean > 0, spreads.mean, np.nan)
 
 
 def rank_moves(blocks: Sequence[Block]) -> NDArray[np.float64]:
